@@ -1,0 +1,64 @@
+// The sun's light with one turn, per unit of σs and irradiance (one_turn.h has the formula). The includer declares the
+// buffers PhaseTable, OneTurnH and OneTurnK, and the constant ONE_TURN: whether the forward peak is cut.
+#ifndef LUMULUS_LIB_SUN_SOURCE
+#define LUMULUS_LIB_SUN_SOURCE
+
+#include "shared/draw.h"
+#include "shared/phase_table.h"
+
+/// What of the sun's light depends on the view direction alone.
+struct SunView {
+    float phase;     // p(θ)
+    TableCell angle; // in the one-turn tables
+};
+
+SunView sunView(LightParams light, vec3 viewDirection) {
+    const ScatterAngle angle = angleBetween(light.sunTravel, -viewDirection);
+    const float axis = angleToAxis(angle, light.angleScale);
+    const TableCell cell = tableCell(axis, phaseTableSize);
+    return SunView(exp(mix(phaseTable[cell.base], phaseTable[cell.base + 1], cell.fraction)),
+                   tableCell(axis, oneTurnAngleCount));
+}
+
+#define ONE_TURN_ENTRY(table, index) vec3(table[index], table[(index) + 1], table[(index) + 2])
+#define ONE_TURN_ROW(table, cell, tau)                                                                                 \
+    mix(ONE_TURN_ENTRY(table, oneTurnIndex(cell, tau.base)), ONE_TURN_ENTRY(table, oneTurnIndex(cell, tau.base + 1)), \
+        tau.fraction)
+
+/// H(τs,θ) and K(τ,θ) without their decay e^−κτ.
+vec3 oneTurnBefore(SunView sun, LightParams light, float tau) {
+    const TableCell cell = tableCell(tauToAxis(tau, light.tauMaximum), oneTurnTauCount);
+    return mix(ONE_TURN_ROW(oneTurnH, sun.angle.base, cell), ONE_TURN_ROW(oneTurnH, sun.angle.base + 1, cell),
+               sun.angle.fraction);
+}
+
+vec3 oneTurnAfter(SunView sun, LightParams light, float tau) {
+    const TableCell cell = tableCell(tauToAxis(tau, light.tauMaximum), oneTurnTauCount);
+    return mix(ONE_TURN_ROW(oneTurnK, sun.angle.base, cell), ONE_TURN_ROW(oneTurnK, sun.angle.base + 1, cell),
+               sun.angle.fraction);
+}
+
+/// Radiance that a stretch of optical thickness `thickness`, seen through `tauView` and lit through `tauSun`, sends to
+/// the eye: the integral of the source over the stretch with its attenuation.
+vec3 sunScattered(SunView sun, LightParams light, float tauSun, float tauView, float thickness) {
+    // 1 − e^−x without cancellation for thin stretches
+    const float filled = thickness < 1.0e-3 ? thickness * (1.0 - 0.5 * thickness) : 1.0 - exp(-thickness);
+    vec3 source = vec3(sun.phase * exp(-tauSun - tauView) * filled);
+    if (ONE_TURN) {
+        source += oneTurnBefore(sun, light, tauSun) * exp(-light.decay * tauSun) * (exp(-tauView) * filled);
+        const vec3 scaled = light.decay * thickness;
+        const vec3 held = mix((1.0 - exp(-scaled)) / max(light.decay, 1.0e-6), vec3(thickness), lessThan(scaled, vec3(1.0e-3)));
+        source += oneTurnAfter(sun, light, tauSun + tauView + 0.5 * min(thickness, 1.0)) *
+                  exp(-light.decay * (tauSun + tauView)) * held;
+    }
+    return light.albedo * light.sunIrradiance * source;
+}
+
+/// The sky behind, with the sun's disc where the view meets it.
+vec3 background(LightParams light, vec3 direction, float transmittance, vec3 turned) {
+    const ScatterAngle off = angleBetween(light.sunTravel, -direction);
+    const vec3 disc = off.oneMinusCos <= light.sunCone ? light.sunDisc * transmittance : vec3(0.0);
+    return light.skyRadiance * turned + disc;
+}
+
+#endif

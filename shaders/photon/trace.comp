@@ -1,0 +1,154 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_shader_atomic_int64 : require
+// One generation of photons. Each invocation walks photon after photon (its number, plus the number of invocations, …)
+// and stops when its share of the record buffer is full or its steps are spent; the next dispatch goes on from there.
+#include "shared/photon.h"
+#include "shared/rng.h"
+#include "shared/phase.h"
+#include "shared/phase_table.h"
+#include "lib/density.glsl"
+#include "lib/emission.glsl"
+#include "lib/packing.glsl"
+#include "lib/tracking.glsl"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool ANALYTIC_PHASE = true;
+layout(constant_id = 1) const bool TURNS_ONLY = false;  // the forward peak is cut: some collisions go straight on
+layout(constant_id = 2) const bool ABSORBS = false;     // an albedo below 1
+
+layout(binding = 0) uniform sampler3D density;
+layout(binding = 1) uniform usampler3D collectorIndex;
+layout(binding = 2, scalar) readonly buffer Params { TraceParams params; };
+layout(binding = 3, scalar) readonly buffer Majorants { float majorants[]; };  // normalised
+layout(binding = 4, scalar) readonly buffer InverseCdf { float inverseCdf[]; };
+layout(binding = 5, scalar) buffer States { TraceState states[]; };
+layout(binding = 6, scalar) writeonly buffer Records { PhotonRecord records[]; };
+layout(binding = 7, scalar) buffer RecordCounts { uint recordCounts[]; };        // of each invocation
+layout(binding = 8, scalar) buffer CollectorCounts { uint collectorCounts[]; };  // of each collector
+layout(binding = 9, scalar) buffer Counters { TraceCounters counters; };
+
+vec4 draw(inout TraceState state) {
+    return rngUniform4(uvec4(state.photon, state.draws++, params.generation, params.stream));
+}
+
+/// Optical depth to the next tentative collision; u in [0,1).
+float opticalDepth(float u) { return -log(1.0 - u); }
+
+Walk beginWalk(TraceState state) {
+    return Walk(state.cell, state.offset, (params.worldToVoxel * state.direction) / params.cellSize, state.depth);
+}
+
+void emitPhoton(inout TraceState state) {
+    state.draws = 0u;
+    const vec4 u = draw(state);
+    const vec4 v = draw(state);
+    vec3 point;
+    float weight = 1.0;
+    if (state.photon < params.sunPhotons)
+        weight = emitSun(params, u, v, point, state.direction);
+    else
+        emitSky(params, u, v, point, state.direction);
+    state.cell = clamp(ivec3(floor(point / params.cellSize)), ivec3(0), params.cells - 1);
+    state.offset = clamp(point / params.cellSize - vec3(state.cell), 0.0, 1.0);
+    state.weight = vec3(weight);
+    state.depth = opticalDepth(v.w);
+    state.collisions = 0u;
+    state.turns = 0u;
+    state.alive = 1u;
+}
+
+ScatterAngle samplePhase(float u) {
+    if (ANALYTIC_PHASE) return sampleHg(params.asymmetry, u, params.turnFraction);
+    const TableCell cell = inverseCdfCell(u);
+    return angleFromOneMinusCos(mix(inverseCdf[cell.base], inverseCdf[cell.base + 1], cell.fraction));
+}
+
+/// Multiplies the weight; where that lowers its largest channel, Russian roulette keeps it up. False: absorbed.
+bool survives(inout TraceState state, vec3 factor, float u) {
+    const float before = max(state.weight.x, max(state.weight.y, state.weight.z));
+    state.weight *= factor;
+    const float after = max(state.weight.x, max(state.weight.y, state.weight.z));
+    if (!(u * before < after)) return false;
+    state.weight *= before / after;
+    return true;
+}
+
+void record(TraceState state, vec3 voxel, uint lane, inout uint count) {
+    const uint collector = texelFetch(collectorIndex, ivec3(min(voxel, params.size - 0.5)), 0).r;
+    if (collector >= params.collectors) return;
+    const vec3 light = state.photon < params.sunPhotons ? params.sunPower : params.skyPower;
+    records[count * params.invocations + lane] =
+        PhotonRecord(collector, packDirection(state.direction), packPower(light * state.weight));
+    atomicAdd(collectorCounts[collector], 1u);
+    ++count;
+}
+
+/// A real collision. False: the photon has ended.
+bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint count) {
+    ++state.collisions;
+    vec4 choice = vec4(0.0);
+    if (TURNS_ONLY || ABSORBS) choice = draw(state);
+    if (TURNS_ONLY && choice.x >= params.turnShare) return survives(state, params.straightWeight, choice.y);
+    // The sun's first turn is drawn from the optical depths to the sun, not from the map (METHODS of the map: docs).
+    if (state.turns > 0u || state.photon >= params.sunPhotons) record(state, voxel, lane, count);
+    ++state.turns;
+    if (ABSORBS && !survives(state, params.albedo, choice.y)) return false;
+    state.direction = rotateDirection(state.direction, samplePhase(u.z), 6.28318531 * u.w);
+    return true;
+}
+
+void main() {
+    const uint lane = gl_GlobalInvocationID.x;
+    if (lane >= params.invocations) return;
+    TraceState state = states[lane];
+    Walk walk = beginWalk(state);
+    uint count = 0u, events = 0u, nulls = 0u, absorbed = 0u, escaped = 0u, lost = 0u;
+
+    for (uint step = 0u; step < params.stepLimit && count < params.recordCapacity; ++step) {
+        if (state.alive == 0u) {
+            if (state.photon >= params.photons) break;
+            emitPhoton(state);
+            walk = beginWalk(state);
+        }
+        const float majorant =
+            majorants[(walk.cell.z * params.cells.y + walk.cell.y) * params.cells.x + walk.cell.x];
+        const uint event = walkStep(walk, majorant * params.extinction, params.cells);
+        bool ended = event == WALK_LEFT;
+        if (ended) ++escaped;
+        if (event == WALK_COLLISION) {
+            const vec3 voxel = (vec3(walk.cell) + walk.offset) * params.cellSize;
+            const vec4 u = draw(state);
+            walk.depth = opticalDepth(u.y);
+            if (u.x * majorant < densityAt(density, voxel, 1.0 / params.size)) {
+                ++events;
+                ended = !collide(state, voxel, u, lane, count);
+                walk.velocity = (params.worldToVoxel * state.direction) / params.cellSize;
+                if (ended) ++absorbed;
+                if (!ended && state.collisions >= params.collisionLimit) {
+                    ended = true;
+                    ++lost;
+                }
+            } else {
+                ++nulls;
+            }
+        }
+        if (ended) {
+            state.alive = 0u;
+            state.photon += params.invocations;
+        }
+    }
+
+    state.cell = walk.cell;
+    state.offset = walk.offset;
+    state.depth = walk.depth;
+    states[lane] = state;
+    recordCounts[lane] = count;
+    atomicAdd(counters.events, uint64_t(events));
+    atomicAdd(counters.nulls, uint64_t(nulls));
+    atomicAdd(counters.absorbed, uint64_t(absorbed));
+    atomicAdd(counters.escaped, uint64_t(escaped));
+    atomicAdd(counters.lost, uint64_t(lost));
+    atomicAdd(counters.records, uint64_t(count));
+    if (state.alive != 0u || state.photon < params.photons) atomicAdd(counters.pending, 1u);
+}

@@ -1,0 +1,47 @@
+// Interface structs of the cloud: its volume on the GPU and the passes of the preparation.
+#ifndef LUMULUS_SHARED_CLOUD_H
+#define LUMULUS_SHARED_CLOUD_H
+
+#include "shared/prelude.h"
+
+SHARED_BEGIN
+
+/// Edge, in voxels, of the blocks over which gradient bounds and base majorants are taken.
+const int BLOCK_EDGE = 4;
+
+/// One box of whole voxels [lower, upper): a leaf of the kD-tree.
+struct LeafBox {
+    ivec3 lower;
+    ivec3 upper;
+};
+
+/// What the leaf pass finds, in units of the normalised density (maximum 1) and voxels.
+struct LeafStatistics {
+    float majorant;  // largest texel that trilinear interpolation inside the leaf can see
+    float mass;      // integral of the interpolated density over the leaf [voxels]
+    vec3 moment;     // integral of density · (position − lower) [voxels²]
+    float occupied;  // fraction of voxels with density
+};
+
+struct BlockPush {
+    ivec3 size;             // voxels
+    ivec3 blocks;           // blocks along each axis
+    mat3 gradientToMetres;  // (voxel → world)⁻ᵀ: turns a gradient per voxel into one per metre
+};
+
+struct SamplePush {
+    mat3 gradientToMetres;
+    ivec3 size;
+    ivec3 blocks;
+    uint samples;
+    uint seed;
+};
+
+struct LeafPush {
+    ivec3 size;
+    uint leaves;
+};
+
+SHARED_END
+
+#endif

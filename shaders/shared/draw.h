@@ -1,0 +1,84 @@
+// Interface structs of drawing. Positions are metres relative to the eye: a cloud may lie 1e7 m from the origin.
+#ifndef LUMULUS_SHARED_DRAW_H
+#define LUMULUS_SHARED_DRAW_H
+
+#include "shared/prelude.h"
+
+SHARED_BEGIN
+
+const int PROJECTION_PERSPECTIVE = 0;
+const int PROJECTION_ORTHOGRAPHIC = 1;
+const int PROJECTION_PANORAMA = 2;
+
+/// Edge of a tile of pixels that share a list of billboards.
+const int TILE_EDGE = 16;
+/// Depth where there is no cloud [m]: finite, so that no infinity leaves a pass.
+const float FAR_DEPTH = 1.0e10F;
+
+struct ViewParams {
+    vec3 right;
+    vec3 up;
+    vec3 forward;
+    vec2 halfExtent;  // tangents of the half angles (perspective) or half sizes in metres (orthographic)
+    ivec2 size;       // of the whole picture, pixels
+    int projection;
+};
+
+struct LightParams {
+    vec3 sunTravel;       // unit vector along which sunlight travels
+    vec3 sunIrradiance;
+    vec3 sunDisc;         // radiance of the visible disc
+    float sunCone;        // 1 − cos of its angular radius
+    vec3 skyRadiance;
+    vec3 albedo;
+    vec3 decay;           // κ = 1 − ω f: optical depth of the turned light per true optical depth
+    float turnShare;      // 1 − f
+    float angleScale;     // axes of the phase tables
+    float tauMaximum;
+};
+
+struct DrawParams {
+    ViewParams view;
+    LightParams light;
+    int firstRow;  // of the band that this dispatch draws
+    int rows;
+    int tilesAcross;
+};
+
+/// A homogeneous sphere that stands for a leaf: its extinction mass is the leaf's, whatever the radius.
+struct Billboard {
+    vec3 centre;
+    float radius;
+    float extinction;  // 1/m
+    uint collector;
+};
+
+/// What a drawing pass leaves of one pixel.
+struct Pixel {
+    vec3 radiance;  // with the sky
+    vec3 cloud;     // without
+    vec3 transmittance;
+    float alpha;
+    float depth;
+    float front;
+};
+
+/// Grid of optical depth towards the sun, its third axis along the light.
+struct SunDepthPush {
+    mat3 gridToVoxel;  // per texel
+    vec3 originVoxel;  // voxel coordinates of the middle of texel (0,0,0)
+    vec3 inverseSize;  // of the density volume
+    ivec3 grid;
+    float step;  // optical depth of one texel's length at density 1
+};
+
+struct CollectorSunPush {
+    mat3 voxelToGrid;  // per voxel, in texture coordinates 0…1
+    vec3 offset;
+    vec3 inverseSize;
+    uint collectors;
+};
+
+SHARED_END
+
+#endif

@@ -1,0 +1,99 @@
+// Interface structs of the photon map: the walk, its records and the passes that collect them.
+#ifndef LUMULUS_SHARED_PHOTON_H
+#define LUMULUS_SHARED_PHOTON_H
+
+#include "shared/prelude.h"
+
+SHARED_BEGIN
+
+/// Photon power in records is an integer of this many units at most (of 2²¹; the rest is headroom for the sun's disc).
+const float POWER_UNITS = 1048576.0F;
+/// Fraction bits of y_lm · power in the integers that collectors add: |sum| of 64 records stays below 2³¹.
+const float COEFFICIENT_SCALE = 8.0F;
+/// Records that one invocation of the gather pass adds up.
+const uint GATHER_CHUNK = 64U;
+const uint NO_COLLECTOR = 0xFFFFFFFFU;
+
+/// How photons move through the cloud. Lengths are metres; `power` is in record units.
+struct TraceParams {
+    mat3 worldToVoxel;  // directions: voxels per metre
+    vec3 size;          // voxels
+    ivec3 cells;        // of the majorant grid
+    vec3 cellSize;      // voxels per cell
+    float extinction;   // collision coefficient at density 1 [1/m]: σt(1 − f·min albedo)
+    float turnShare;    // probability that a collision is a turn
+    vec3 albedo;
+    vec3 straightWeight;  // weight of light that goes straight on at a collision
+    float turnFraction;   // 1 − f: what phase sampling is restricted to
+    float asymmetry;      // g of the analytic sampler
+    vec3 sunDirection;    // of travel
+    float sunCone;        // 1 − cos of the disc's angular radius
+    vec3 faceArea[3];     // area vectors of the box's faces across x, y, z [m²]
+    vec3 sunPower;
+    vec3 skyPower;
+    uint sunPhotons;  // the first ones of a generation
+    uint photons;     // of a generation
+    uint generation;
+    uint stream;  // of the random numbers
+    uint collectors;
+    uint invocations;
+    uint recordCapacity;  // of one invocation
+    uint stepLimit;       // of one dispatch
+    uint collisionLimit;  // of one photon
+};
+
+/// A photon between two dispatches.
+struct TraceState {
+    ivec3 cell;
+    vec3 offset;  // in the cell, 0…1
+    vec3 direction;
+    vec3 weight;      // of the light's power
+    float depth;      // optical depth left to the next tentative collision
+    uint photon;      // number in the generation
+    uint draws;       // random numbers drawn
+    uint collisions;  // real ones
+    uint turns;
+    uint alive;
+};
+
+/// One photon that meets a collector.
+struct PhotonRecord {
+    uint collector;
+    uint direction;  // octahedral, 16 bits each
+    uvec2 power;     // three times 21 bits
+};
+
+/// What a generation has done so far.
+struct TraceCounters {
+    uint64_t events;
+    uint64_t nulls;
+    uint64_t absorbed;
+    uint64_t escaped;
+    uint64_t lost;
+    uint64_t records;
+    uint pending;  // invocations that have not finished
+    uint unused;
+};
+
+struct GatherPush {
+    uint collectors;
+    uint invocations;
+    uint recordCapacity;
+};
+
+struct AccumulatePush {
+    uint coefficients;
+    int shift;       // of the generation's unit against the ring's
+    uint keepSlots;  // whether the ring remembers its generations
+};
+
+struct ReconstructPush {
+    uint collectors;
+    float scale;  // ring units → W·m⁻², over the generations in the ring
+    vec3 eye;     // voxel coordinates; a collector's direction to it is found in metres
+    mat3 voxelToWorld;
+};
+
+SHARED_END
+
+#endif

@@ -1,0 +1,30 @@
+#include "base/png.h"
+
+#include <png.h>
+
+#include <cassert>
+#include <cstddef>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+
+namespace lumulus {
+
+void writePng(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgb) {
+    assert(width > 0 && height > 0);
+    assert(rgb.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(height);
+    image.format = PNG_FORMAT_RGB;
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+    std::vector<std::byte> bytes(size);
+    if (png_image_write_to_memory(&image, bytes.data(), &size, 0, rgb.data(), 0, nullptr) == 0) {
+        throw Error(std::string("cannot encode the picture: ") + image.message, path.string(), "");
+    }
+    writeFile(path, std::span(bytes).first(size));
+}
+
+}  // namespace lumulus

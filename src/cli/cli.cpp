@@ -1,0 +1,163 @@
+#include "cli/cli.h"
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <map>
+#include <new>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/version.h"
+#include "cli/cloud.h"
+#include "cli/compare.h"
+#include "cli/info.h"
+#include "cli/output.h"
+#include "cli/reference.h"
+#include "cli/render.h"
+
+namespace lumulus::cli {
+namespace {
+
+/// The subcommand that the command line chose; empty until then.
+using Action = std::function<void()>;
+
+/// Like the seeds of scene files, up to 2^53.
+CLI::Range seedRange() {
+    return {std::uint64_t{0}, std::uint64_t{1} << 53};
+}
+
+void addRender(CLI::App& app, RenderOptions& options, Action& action) {
+    CLI::App* command = app.add_subcommand("render", "Render a scene to pictures");
+    command->add_option("scene", options.scene, "Scene file (TOML)")->required();
+    command->add_option("-o,--output", options.outputs, "Picture: .exr (linear float layers) or .png; may repeat")
+        ->required()
+        ->allow_extra_args(false);
+    const std::map<std::string, scene::Quality> qualities{{"draft", scene::Quality::draft},
+                                                          {"interactive", scene::Quality::interactive},
+                                                          {"final", scene::Quality::final}};
+    command
+        ->add_option_function<std::string>(
+            "--quality", [&options, qualities](const std::string& name) { options.quality = qualities.at(name); },
+            "Preset for what the scene leaves out: draft, interactive or final")
+        ->check(CLI::IsMember({"draft", "interactive", "final"}));
+    command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
+        ->allow_extra_args(false);
+    command->add_option("--seed", options.seed, "Seed of the random numbers (photon_map.seed)")->check(seedRange());
+    command->add_option("--device", options.device, "Name (a part is enough) or index of a device, see info --devices");
+    command->add_option("--stats", options.stats, "Write statistics as JSON to this file, - for standard output");
+    command->add_flag("--quiet", options.quiet, "No progress");
+    command->add_flag("--validate", options.validate, "Run with Vulkan validation; fail on any message");
+    command->footer(
+        "Example:\n  lumulus render configs/scenes/cumulus.toml -o cumulus.exr -o cumulus.png --quality draft");
+    command->callback([&options, &action] { action = [&options] { runRender(options); }; });
+}
+
+void addCloud(CLI::App& app, CloudOptions& options, Action& action) {
+    CLI::App* command = app.add_subcommand("cloud", "Make a procedural cloud as an OpenVDB file");
+    command->add_option("kind", options.kind, "cumulus, stratus, cirrus, sphere or slab")->required();
+    command->add_option("-o,--output", options.output, "OpenVDB file (.vdb)")->required();
+    command->add_option("--resolution", options.resolution, "Voxels along the longest side")->capture_default_str();
+    command->add_option("--seed", options.seed, "Seed of the shape")->check(seedRange())->capture_default_str();
+    command->footer("Example:\n  lumulus cloud cumulus -o cumulus.vdb --resolution 256 --seed 7");
+    command->callback([&options, &action] { action = [&options] { runCloud(options); }; });
+}
+
+void addInfo(CLI::App& app, InfoOptions& options, Action& action) {
+    CLI::App* command = app.add_subcommand("info", "Show the grids of an OpenVDB file, or the devices");
+    command->add_option("file", options.file, "OpenVDB file");
+    command->add_flag("--devices", options.devices, "List the Vulkan devices");
+    command->add_flag("--scene-format", options.sceneFormat)->group("");  // for docs/scene-format.md
+    command->add_flag("--json", options.json, "As JSON");
+    command->footer("Example:\n  lumulus info cloud.vdb\n  lumulus info --devices --json");
+    command->callback([&options, &action] { action = [&options] { runInfo(options); }; });
+}
+
+void addReference(CLI::App& app, ReferenceOptions& options, Action& action) {
+    CLI::App* command = app.add_subcommand("reference", "Render a scene without bias, by path tracing on the CPU");
+    command->add_option("scene", options.scene, "Scene file (TOML)")->required();
+    command->add_option("-o,--output", options.output, "Picture (.exr); the exact sums go beside it (.sums)")
+        ->required();
+    const CLI::Range positive(1e-3, 1e9);
+    command->add_option("--spp", options.spp, "Stop at this many samples per pixel")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40));
+    command->add_option("--seconds", options.seconds, "Stop after this time")->check(positive);
+    command
+        ->add_option_function<std::string>(
+            "--majorant", [&options](const std::string& name) { options.localMajorant = name == "local"; },
+            "global (default), or local: faster, the same picture but for noise")
+        ->check(CLI::IsMember({"global", "local"}));
+    command->add_flag("--resume", options.resume, "Go on from the file that is there: --spp counts its samples too");
+    command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
+        ->allow_extra_args(false);
+    command->add_option("--seed", options.seed, "Seed of the random numbers (photon_map.seed)")->check(seedRange());
+    command->add_flag("--quiet", options.quiet, "No progress");
+    command->footer(
+        "Example:\n  lumulus reference configs/scenes/cumulus.toml -o truth.exr --spp 256 --majorant local");
+    command->callback([&options, &action] { action = [&options] { runReference(options); }; });
+}
+
+void addCompare(CLI::App& app, CompareOptions& options, Action& action) {
+    CLI::App* command = app.add_subcommand("compare", "Measure how far a picture is from a reference");
+    command->add_option("image", options.image, "Picture (.exr)")->required();
+    command->add_option("reference", options.reference, "Reference (.exr)")->required();
+    command->add_option("second", options.secondReference,
+                        "A second, independent reference, to be free of their noise");
+    command->add_flag("--json", options.json, "As JSON");
+    command->add_option("--diff", options.diff,
+                        "Write the difference: false colours (.png) or image - reference (.exr)");
+    command->add_option("--exposure", options.exposure, "Stops, for the tone-mapped pictures that FLIP sees")
+        ->check(CLI::Range(-32.0, 32.0));
+    command->footer("Example:\n  lumulus compare cumulus.exr truth.exr --diff difference.png");
+    command->callback([&options, &action] { action = [&options] { runCompare(options); }; });
+}
+
+/// Parses and runs. CLI11's own errors become bad usage; asking for help or the version does not fail.
+void parseAndRun(int argc, const char* const* argv) {
+    CLI::App app("Lumulus renders clouds.", "lumulus");
+    app.set_version_flag("--version", std::string("lumulus ") + version);
+    app.footer("Each command has its own help: lumulus render --help");
+    app.require_subcommand(1);
+    Action action;
+    RenderOptions render;
+    CloudOptions cloud;
+    InfoOptions info;
+    ReferenceOptions reference;
+    CompareOptions compare;
+    addRender(app, render, action);
+    addCloud(app, cloud, action);
+    addInfo(app, info, action);
+    addReference(app, reference, action);
+    addCompare(app, compare, action);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success&) {
+        printOut(app.count("--version") > 0 ? app.version() + "\n" : app.help());
+        return;
+    } catch (const CLI::ParseError& e) {
+        const auto chosen = app.get_subcommands();
+        const std::string name = chosen.empty() ? "lumulus" : "lumulus " + chosen.front()->get_name();
+        throw InputError(e.what(), "command line", "see " + name + " --help");
+    }
+    action();
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv) {
+    installSignalHandlers();
+    try {
+        parseAndRun(argc, argv);
+        return 0;
+    } catch (const Error& e) {
+        logError(e.what());
+        return e.exitCode();
+    } catch (const std::bad_alloc&) {
+        logError("out of memory: make the picture or the cloud smaller");
+    } catch (const std::exception& e) {
+        logError(std::string(e.what()) + ": this should not happen, please report it");
+    }
+    return 1;
+}
+
+}  // namespace lumulus::cli

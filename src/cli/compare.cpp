@@ -1,0 +1,121 @@
+#include "cli/compare.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.h"
+#include "base/exr.h"
+#include "base/png.h"
+#include "base/tonemap.h"
+#include "cli/output.h"
+#include "reference/difference_picture.h"
+#include "reference/flip.h"
+#include "reference/metrics.h"
+
+namespace lumulus::cli {
+namespace {
+
+using reference::Comparison;
+using reference::Measure;
+
+struct Row {
+    const char* key;
+    const char* title;
+    const Measure& measure;
+};
+
+std::vector<Row> rowsOf(const Comparison& c) {
+    return {{"rmse", "RMSE", c.rmse},
+            {"relmse", "relMSE", c.relMse},
+            {"bias", "bias", c.bias},
+            {"relative_bias", "bias, relative", c.relativeBias},
+            {"mape", "MAPE", c.mape}};
+}
+
+std::string asText(const Comparison& c, double flip, std::size_t pixels) {
+    std::string text = fmt::format("{:<16}{} of {}\n", "pixels", c.pixels, pixels);
+    for (const Row& row : rowsOf(c)) {
+        text += fmt::format("{:<16}{:.6g}", row.title, row.measure.value);
+        text += row.measure.standardError ? fmt::format(" ± {:.2g}\n", *row.measure.standardError) : "\n";
+    }
+    text += fmt::format("{:<16}{:.6g}\n", "FLIP", flip);
+    if (c.imageNoise) text += fmt::format("{:<16}{:.6g}\n", "image noise", *c.imageNoise);
+    if (c.referenceNoise) text += fmt::format("{:<16}{:.6g}\n", "reference noise", *c.referenceNoise);
+    return text;
+}
+
+std::string asJson(const Comparison& c, double flip) {
+    const auto optional = [](const std::optional<double>& value) {
+        return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+    };
+    nlohmann::ordered_json json{{"pixels", c.pixels}};
+    nlohmann::ordered_json errors = nlohmann::ordered_json::object();
+    for (const Row& row : rowsOf(c)) {
+        json[row.key] = row.measure.value;
+        errors[row.key] = optional(row.measure.standardError);
+    }
+    json["flip"] = flip;
+    json["standard_error"] = errors;
+    json["image_noise"] = optional(c.imageNoise);
+    json["reference_noise"] = optional(c.referenceNoise);
+    json["mean_reference"] = c.meanReference;
+    return json.dump() + "\n";
+}
+
+/// I − R, channel by channel.
+LayeredImage difference(const LayeredImage& image, const LayeredImage& reference) {
+    LayeredImage result;
+    result.width = image.width;
+    result.height = image.height;
+    for (const char* name : {"R", "G", "B"}) {
+        std::vector<float>& layer = result.layer(name);
+        for (std::size_t i = 0; i < layer.size(); ++i)
+            layer[i] = image.layers.at(name)[i] - reference.layers.at(name)[i];
+    }
+    return result;
+}
+
+void writeDifference(const std::filesystem::path& path, const LayeredImage& image, const LayeredImage& reference) {
+    if (hasSuffix(path, ".exr")) {
+        writeExr(path, difference(image, reference));
+    } else {
+        writePng(path, image.width, image.height, reference::differencePicture(image, reference));
+    }
+}
+
+/// The mean of both, for what needs one picture of the truth.
+LayeredImage meanOf(LayeredImage a, const LayeredImage& b) {
+    for (const char* name : {"R", "G", "B"}) {
+        std::vector<float>& layer = a.layers.at(name);
+        for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = 0.5F * (layer[i] + b.layers.at(name)[i]);
+    }
+    return a;
+}
+
+}  // namespace
+
+void runCompare(const CompareOptions& options) {
+    if (!options.diff.empty()) {
+        requireSuffix(options.diff, {".png", ".exr"});
+        checkWritable(options.diff);
+    }
+    const LayeredImage image = readExr(options.image);
+    LayeredImage truth = readExr(options.reference);
+    reference::requireComparable({image, options.image.string()}, {truth, options.reference.string()});
+    Comparison comparison;
+    if (options.secondReference.empty()) {
+        comparison = reference::compare(image, truth);
+    } else {
+        const LayeredImage second = readExr(options.secondReference);
+        reference::requireComparable({image, options.image.string()}, {second, options.secondReference.string()});
+        comparison = reference::compare(image, truth, second);
+        truth = meanOf(std::move(truth), second);
+    }
+    const double flip = reference::flipMean(
+        reference::flip(toneMap(image, options.exposure), toneMap(truth, options.exposure), image.width, image.height));
+    printOut(options.json ? asJson(comparison, flip) : asText(comparison, flip, image.pixels()));
+    if (!options.diff.empty()) writeDifference(options.diff, image, truth);
+}
+
+}  // namespace lumulus::cli

@@ -1,0 +1,34 @@
+#include "cli/output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+
+#include "base/error.h"
+
+namespace lumulus::cli {
+
+bool hasSuffix(const std::filesystem::path& path, std::string_view suffix) {
+    const std::string extension = path.extension().string();
+    return std::ranges::equal(extension, suffix, [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+    });
+}
+
+void requireSuffix(const std::filesystem::path& path, std::initializer_list<std::string_view> suffixes) {
+    for (const std::string_view suffix : suffixes) {
+        if (hasSuffix(path, suffix)) return;
+    }
+    throw InputError(fmt::format("cannot write a file of this kind: \"{}\"", path.extension().string()), path.string(),
+                     fmt::format("give a name that ends with {}", fmt::join(suffixes, " or ")));
+}
+
+void printOut(std::string_view text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+        throw Error("cannot write to standard output", "", "is the disk full or the pipe closed?");
+    }
+}
+
+}  // namespace lumulus::cli

@@ -1,0 +1,124 @@
+#include "cli/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/exr.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/progress.h"
+#include "base/version.h"
+#include "cli/output.h"
+#include "reference/film_file.h"
+#include "reference/render.h"
+#include "scene/load.h"
+#include "volume/load.h"
+
+namespace lumulus::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+scene::Scene sceneOf(const ReferenceOptions& options) {
+    std::vector<std::string> overrides = options.overrides;
+    if (options.seed) overrides.push_back("photon_map.seed=" + std::to_string(*options.seed));
+    return scene::loadScene(options.scene, overrides);
+}
+
+void checkOptions(const ReferenceOptions& options) {
+    if (options.spp.has_value() == options.seconds.has_value()) {
+        throw InputError("the reference does not know when to stop", "command line", "give either --spp or --seconds");
+    }
+    requireSuffix(options.output, {".exr"});
+    checkWritable(options.output);
+}
+
+reference::Renderer rendererOf(const ReferenceOptions& options, const scene::Scene& scene) {
+    const auto majorant = options.localMajorant ? reference::Majorant::local : reference::Majorant::global;
+    if (scene.clouds.empty()) return {scene, nullptr, majorant, scene.photonMap.seed};
+    const CloudVolume cloud = loadCloudVolume(scene.clouds[0], scene.preparation.memoryBudget);
+    for (const std::string& warning : cloud.warnings) logWarning(warning);
+    return {scene, &cloud.volume, majorant, scene.photonMap.seed};
+}
+
+/// An earlier run's film, where there is one.
+void resume(const ReferenceOptions& options, reference::Renderer& renderer) {
+    const std::filesystem::path sums = reference::sumsBeside(options.output);
+    // a first run with --resume begins; a picture without its sums is a mistake that readFilm names
+    if (std::filesystem::exists(sums) || std::filesystem::exists(options.output)) {
+        renderer.resume(reference::readFilm(sums, renderer.fingerprint()));
+    }
+}
+
+/// Passes until the samples or the seconds are reached, or Ctrl-C.
+void renderPasses(const ReferenceOptions& options, reference::Renderer& renderer) {
+    const Clock::time_point start = Clock::now();
+    const auto rows = static_cast<std::uint64_t>(renderer.film().height);
+    const std::uint64_t done = renderer.film().samples;
+    const std::uint64_t wanted = options.spp.value_or(0);
+    if (options.spp && done >= wanted) return;
+    // progress in rows, or in milliseconds where time is the measure
+    const auto total = options.spp ? (wanted - done) * rows : static_cast<std::uint64_t>(1e3 * *options.seconds);
+    std::uint64_t shown = 0;
+    Progress progress("reference", total, options.quiet);
+    const auto advance = [&](std::uint64_t to) {
+        to = std::min(to, total);
+        if (to > shown) progress.advance(to - shown);
+        shown = std::max(shown, to);
+    };
+    std::uint64_t rowsDone = 0;
+    const auto goOn = [&](std::uint64_t more) {
+        rowsDone += more;
+        advance(options.spp ? rowsDone : static_cast<std::uint64_t>(1e3 * secondsSince(start)));
+        return !interrupted();
+    };
+    const auto enough = [&] {
+        return options.spp ? renderer.film().samples >= wanted : secondsSince(start) >= *options.seconds;
+    };
+    do {
+        if (!renderer.pass(goOn)) break;
+    } while (!enough());
+    renderer.addSeconds(secondsSince(start));
+}
+
+void write(const ReferenceOptions& options, const scene::Scene& scene, const reference::Renderer& renderer) {
+    const reference::Film& film = renderer.film();
+    LayeredImage image = renderer.picture();
+    image.attributes["scene"] = scene.source;
+    image.attributes["seed"] = std::to_string(scene.photonMap.seed);
+    image.attributes["software"] = std::string("lumulus ") + version;
+    image.attributes["device"] = "CPU";
+    image.attributes["majorant"] = options.localMajorant ? "local" : "global";
+    image.attributes["samples"] = std::to_string(film.samples);
+    image.attributes["seconds"] = fmt::format("{:.3f}", film.seconds);
+    image.attributes["lost"] = std::to_string(film.lost);
+    // sums first: between the two files a run can still go on
+    reference::writeFilm(reference::sumsBeside(options.output), film, renderer.fingerprint());
+    writeExr(options.output, image);
+}
+
+}  // namespace
+
+void runReference(const ReferenceOptions& options) {
+    checkOptions(options);
+    const scene::Scene scene = sceneOf(options);
+    reference::Renderer renderer = rendererOf(options, scene);
+    if (options.resume) resume(options, renderer);
+    renderPasses(options, renderer);
+    const std::uint64_t samples = renderer.film().samples;
+    if (samples == 0) throw Error("interrupted before the first sample of every pixel", "", "nothing was written");
+    write(options, scene, renderer);
+    if (renderer.film().lost > 0)
+        logWarning(fmt::format("{} paths were lost: they scattered too often", renderer.film().lost));
+    if (interrupted()) logWarning(fmt::format("interrupted: the picture has {} samples per pixel", samples));
+}
+
+}  // namespace lumulus::cli

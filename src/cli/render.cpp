@@ -1,0 +1,118 @@
+#include "cli/render.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <set>
+#include <span>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/exr.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/png.h"
+#include "base/progress.h"
+#include "base/tonemap.h"
+#include "base/version.h"
+#include "cli/output.h"
+#include "cli/stats_json.h"
+#include "renderer.h"
+#include "scene/load.h"
+
+namespace lumulus::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Everything that can be known to fail later fails here, before the work.
+void checkOutputs(const RenderOptions& options) {
+    std::set<std::string> names;
+    for (const auto& output : options.outputs) {
+        requireSuffix(output, {".exr", ".png"});
+        if (!names.insert(output.lexically_normal().string()).second) {
+            throw InputError("the same output is given twice", output.string(), "give each -o a name of its own");
+        }
+    }
+    for (const auto& output : options.outputs) checkWritable(output);
+    if (!options.stats.empty() && options.stats != "-") checkWritable(options.stats);
+}
+
+scene::Scene sceneOf(const RenderOptions& options) {
+    std::vector<std::string> overrides = options.overrides;
+    if (options.seed) overrides.push_back("photon_map.seed=" + std::to_string(*options.seed));
+    return scene::loadScene(options.scene, overrides, options.quality);
+}
+
+void stopIfInterrupted() {
+    if (interrupted()) throw Error("interrupted", "", "nothing was written");
+}
+
+LayeredImage renderFrame(Renderer& renderer, bool quiet) {
+    const int generations = renderer.generationsWanted();
+    {
+        Progress progress("photons", static_cast<std::uint64_t>(generations), quiet);
+        for (int generation = 0; generation < generations; ++generation) {
+            stopIfInterrupted();
+            renderer.traceGeneration();
+            progress.advance();
+        }
+    }
+    stopIfInterrupted();
+    LayeredImage image = renderer.draw();
+    stopIfInterrupted();
+    return image;
+}
+
+void writeOutputs(const RenderOptions& options, const LayeredImage& image, double exposure) {
+    for (const auto& output : options.outputs) {
+        if (hasSuffix(output, ".exr")) {
+            writeExr(output, image);
+        } else {
+            writePng(output, image.width, image.height, toneMap(image, exposure));
+        }
+    }
+}
+
+void writeStats(const std::string& where, const std::string& json) {
+    if (where == "-") {
+        printOut(json);
+    } else if (!where.empty()) {
+        writeFile(where, std::as_bytes(std::span(json)));
+    }
+}
+
+}  // namespace
+
+void runRender(const RenderOptions& options) {
+    const Clock::time_point start = Clock::now();
+    checkOutputs(options);
+    const scene::Scene scene = sceneOf(options);
+
+    Renderer renderer(scene, RendererOptions{options.device, options.validate});
+    LayeredImage image = renderFrame(renderer, options.quiet);
+    const Statistics statistics = renderer.statistics();
+    for (const std::string& warning : statistics.warnings) logWarning(warning);
+
+    image.attributes["scene"] = scene.source;
+    image.attributes["seed"] = std::to_string(scene.photonMap.seed);
+    image.attributes["software"] = std::string("lumulus ") + version;
+    image.attributes["device"] = statistics.device;
+    image.attributes["samples"] = std::to_string(statistics.photons);
+    image.attributes["seconds"] = std::to_string(secondsSince(start));
+
+    const Clock::time_point writing = Clock::now();
+    writeOutputs(options, image, scene.image.exposure);
+    const double writeSeconds = secondsSince(writing);
+    writeStats(options.stats, statisticsJson(statistics, writeSeconds, secondsSince(start)));
+    if (options.validate && !statistics.validationMessages.empty()) {
+        throw Error("Vulkan validation: " + statistics.validationMessages.front(), statistics.device,
+                    "this is a mistake of Lumulus: please report it");
+    }
+}
+
+}  // namespace lumulus::cli

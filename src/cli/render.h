@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/quality.h"
+
+namespace lumulus::cli {
+
+struct RenderOptions {
+    std::filesystem::path scene;
+    std::vector<std::filesystem::path> outputs;  ///< .exr (linear) and .png (tone mapped)
+    std::optional<scene::Quality> quality;
+    std::vector<std::string> overrides;
+    std::optional<std::uint64_t> seed;
+    std::string device;
+    std::string stats;  ///< file, "-" for stdout, empty for none
+    bool quiet = false;
+    bool validate = false;
+};
+
+/// `lumulus render`. Errors: InputError before any work for bad usage, scenes and places that cannot be written to.
+void runRender(const RenderOptions& options);
+
+}  // namespace lumulus::cli

@@ -1,0 +1,39 @@
+#include "cli/stats_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace lumulus::cli {
+
+using Json = nlohmann::ordered_json;
+
+std::string statisticsJson(const Statistics& s, double writeSeconds, double totalSeconds) {
+    Json passes = Json::array();
+    for (const PassTime& pass : s.passes) passes.push_back({{"name", pass.name}, {"ms", pass.milliseconds}});
+    const Json json{
+        {"device", s.device},
+        {"seconds",
+         {{"load", s.loadSeconds},
+          {"prepare", s.prepareSeconds},
+          {"trace", s.traceSeconds},
+          {"draw", s.drawSeconds},
+          {"write", writeSeconds},
+          {"total", totalSeconds}}},
+        {"photons", s.photons},
+        {"generations", s.generations},
+        {"events", s.events},
+        {"null_collisions", s.nullCollisions},
+        {"absorbed", s.absorbed},
+        {"escaped", s.escaped},
+        {"lost", s.lost},
+        {"saturated", s.saturated},
+        {"collectors", s.collectors},
+        {"gpu_bytes", s.gpuBytes},
+        {"passes", passes},
+        {"warnings", s.warnings},
+        {"validation_messages", s.validationMessages},
+    };
+    // names of devices and files may hold bytes that are no UTF-8
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace lumulus::cli

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "cloud/kdtree.h"
+#include "gpu/memory.h"
+#include "scene/scene.h"
+#include "vdb/quantise.h"
+#include "vdb/volume.h"
+
+namespace lumulus::cloud {
+
+/// Majorants of the normalised density on a coarse grid, for delta tracking. One cell is a global majorant.
+struct MajorantGrid {
+    glm::ivec3 cells{1};
+    glm::vec3 cellSize{1.0F};  ///< voxels
+    std::vector<float>
+        maxima;  ///< cells.x·cells.y·cells.z, x fastest; never below any interpolated density of the cell
+    double nullCollisions = 0.0;  ///< expected for each real one, for light that fills the box evenly
+};
+
+/// A virtual photon collector (VPC) and the billboard that stands for its leaf.
+struct Collector {
+    glm::vec3 centre{0.0F};  ///< of mass, voxel coordinates
+    float mass = 0.0F;       ///< ∫ normalised density over the leaf [voxels]
+    float majorant = 0.0F;   ///< of the normalised density in the leaf
+    float occupied = 0.0F;   ///< fraction of the leaf's voxels that have density
+    shared::LeafBox box;
+};
+
+/// Seconds of each step of the preparation, for --stats and benchmarks.
+struct PreparationTimes {
+    double upload = 0.0, gradient = 0.0, sampling = 0.0, tree = 0.0, leaves = 0.0;
+};
+
+/// A cloud made ready for photons: immutable, on the GPU once.
+struct Cloud {
+    glm::ivec3 size{0};
+    vdb::Affine toWorld;
+    double voxelVolume = 0.0;  ///< m³
+    vdb::DensityFormat format = vdb::DensityFormat::r16f;
+    gpu::Image density;         ///< normalised: 1 is the field's maximum
+    gpu::Image collectorIndex;  ///< number of the collector of each voxel; the format's largest value: none
+    MajorantGrid majorants;
+    gpu::Buffer majorantBuffer;
+    std::vector<Sample> samples;
+    KdTree tree;
+    std::vector<Collector> collectors;
+    PreparationTimes times;
+};
+
+struct PrepareOptions {
+    scene::Preparation preparation;
+    scene::Majorant majorant = scene::Majorant::automatic;
+    double reducedExtinction = 0.0;  ///< σt'(1−g') at the field's maximum [1/m]
+    std::uint32_t seed = 1;
+};
+
+/// Steps 1 to 5 of the preparation: gradient, samples, kD-tree, leaf statistics, collectors. `volume` must not be
+/// empty.
+Cloud prepare(gpu::Context& context, const vdb::Volume& volume, const PrepareOptions& options);
+
+/// Majorants on cells of `edge` blocks, or a single one for the whole volume (edge 0), from those of the blocks.
+MajorantGrid majorantGrid(const std::vector<float>& blockMaxima, const glm::ivec3& blocks, const glm::ivec3& size,
+                          int edge, double mass);
+
+}  // namespace lumulus::cloud

@@ -1,0 +1,45 @@
+#include <algorithm>
+
+#include "cloud/cloud.h"
+
+namespace lumulus::cloud {
+
+namespace {
+
+/// Room for the rounding of the interpolation hardware.
+constexpr float slack = 1.0F + 1e-5F;
+
+}  // namespace
+
+MajorantGrid majorantGrid(const std::vector<float>& blockMaxima, const glm::ivec3& blocks, const glm::ivec3& size,
+                          int edge, double mass) {
+    MajorantGrid grid;
+    const bool global = edge == 0;
+    grid.cells = global ? glm::ivec3(1) : (blocks + edge - 1) / edge;
+    grid.cellSize = global ? glm::vec3(size) : glm::vec3(static_cast<float>(edge * shared::BLOCK_EDGE));
+    const auto index = [](const glm::ivec3& at, const glm::ivec3& extent) {
+        return static_cast<std::size_t>((at.z * extent.y + at.y) * extent.x + at.x);
+    };
+    grid.maxima.assign(static_cast<std::size_t>(grid.cells.x * grid.cells.y * grid.cells.z), 0.0F);
+    for (int z = 0; z < blocks.z; ++z)
+        for (int y = 0; y < blocks.y; ++y)
+            for (int x = 0; x < blocks.x; ++x) {
+                const glm::ivec3 block(x, y, z);
+                float& cell = grid.maxima[index(global ? glm::ivec3(0) : block / edge, grid.cells)];
+                cell = std::max(cell, slack * blockMaxima[index(block, blocks)]);
+            }
+    double tentative = 0.0;
+    for (int z = 0; z < grid.cells.z; ++z)
+        for (int y = 0; y < grid.cells.y; ++y)
+            for (int x = 0; x < grid.cells.x; ++x) {
+                const glm::ivec3 cell(x, y, z);
+                const glm::dvec3 lower = glm::dvec3(cell) * glm::dvec3(grid.cellSize);
+                const glm::dvec3 upper = glm::min(lower + glm::dvec3(grid.cellSize), glm::dvec3(size));
+                const glm::dvec3 extent = upper - lower;
+                tentative += static_cast<double>(grid.maxima[index(cell, grid.cells)]) * extent.x * extent.y * extent.z;
+            }
+    grid.nullCollisions = std::max(0.0, tentative / mass - 1.0);
+    return grid;
+}
+
+}  // namespace lumulus::cloud

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "vdb/volume.h"
+
+namespace lumulus {
+
+/// Where a cloud is: a box, turned and sheared as its grid is. Metres.
+struct Bounds {
+    glm::dvec3 centre{0.0};
+    glm::dmat3 halfAxes{500.0};       ///< columns: from the centre to the middles of three faces
+    std::vector<glm::dvec3> outline;  ///< points whose convex hull holds the cloud more tightly; may be empty
+
+    double radius() const;  ///< of the sphere around the eight corners
+    std::array<glm::dvec3, 8> corners() const;
+};
+
+/// The box of the voxels that are not zero; of all voxels where all are.
+Bounds boundsOf(const vdb::Volume& volume);
+
+}  // namespace lumulus

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace lumulus::photon {
+
+/// How a generation is shared out between the lights.
+struct Emission {
+    double sunShare = 0.0;    ///< of the photons, by luminous power
+    glm::dvec3 sunFlux{0.0};  ///< through the cloud's box [W]
+    glm::dvec3 skyFlux{0.0};
+    bool dark() const { return sunFlux + skyFlux == glm::dvec3(0.0); }
+
+    /// Sun photons in a generation of `photons`: the share, rounded up or down with the right probability by `u` in
+    /// [0,1).
+    std::uint64_t sunPhotons(std::uint64_t photons, double u) const;
+    /// Power of one photon [W]; zero where the light has no share.
+    glm::dvec3 sunPower(std::uint64_t photons) const;
+    glm::dvec3 skyPower(std::uint64_t photons) const;
+};
+
+/// Light that enters a box whose faces have these area vectors [m²] (one of each pair).
+Emission makeEmission(const scene::Sun& sun, const scene::Sky& sky, const glm::dmat3& faceArea);
+
+/// Area vectors of the faces of an affine box with the given edges (columns) [m].
+glm::dmat3 faceAreas(const glm::dmat3& edges);
+
+}  // namespace lumulus::photon

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cloud/cloud.h"
+#include "gpu/commands.h"
+#include "phase/scattering_tables.h"
+#include "scene/scene.h"
+
+namespace lumulus::photon {
+
+/// What photons need to know of the medium.
+struct Medium {
+    double extinction = 0.0;  ///< σt where the normalised density is 1 [1/m]
+    glm::dvec3 albedo{1.0};
+    phase::ScatteringTables tables;
+};
+
+struct Options {
+    std::uint64_t photonsPerGeneration = 100000;
+    int generations = 20;  ///< p, slots of the ring
+    std::uint32_t firstGeneration = 0;
+    int bands = 5;
+    std::uint64_t seed = 1;
+    /// Whether generations beyond the p-th will replace the oldest. A picture that stops at p needs no slots: they are
+    /// the bulk of the memory.
+    bool keepRing = false;
+};
+
+/// Sums over all generations traced.
+struct Counters {
+    std::uint64_t emitted = 0, events = 0, nulls = 0, absorbed = 0, escaped = 0, lost = 0, records = 0, saturated = 0;
+};
+
+/// The photon map: a ring of generations of spherical-harmonic coefficients, [collector][RGB][bands²] int64 each, and
+/// their exact sum.
+class PhotonMap {
+  public:
+    /// `cloud` must outlive the map. Errors: InputError where the ring does not fit into the device's memory.
+    PhotonMap(gpu::Context& context, const cloud::Cloud& cloud, const Medium& medium, const Options& options);
+    ~PhotonMap();
+
+    /// Traces one generation into the oldest slot. Power of the lights: W·m⁻² (sun), W·m⁻²·sr⁻¹ (sky).
+    void trace(const scene::Sun& sun, const scene::Sky& sky);
+
+    /// Radiance of every collector towards the eye, as vec3 in `radiance()`: recorded into `commands`.
+    void reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel) const;
+    const gpu::Buffer& radiance() const;
+
+    int generationsInRing() const;
+    const Counters& counters() const;
+    /// Milliseconds of each pass, summed, in the order of the passes.
+    std::vector<gpu::PassTime> times() const;
+    /// Steps of the last round that was recorded.
+    const std::vector<gpu::Step>& steps() const;
+
+    /// For tests: the running sum, and one slot of the ring, in units of `unit()`.
+    std::vector<std::int64_t> downloadSum() const;
+    std::vector<std::int64_t> downloadSlot(int slot) const;
+    /// Watts that one count of the ring stands for.
+    double unit() const;
+    /// ∫ σt' dV of each collector [m²], by which its coefficients are divided.
+    std::vector<double> masses() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lumulus::photon

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "base/image.h"
+
+namespace lumulus::reference {
+
+/// What the samples of one pixel add up to, in double. The sums are taken in the order of the samples, so that they are
+/// the same bits however the work is divided.
+struct PixelSums {
+    glm::dvec3 scattered{0.0};  ///< radiance that the cloud scattered
+    glm::dvec3 square{0.0};     ///< squares of the whole radiance
+    double passed = 0.0;        ///< samples that saw the sky directly
+    double disc = 0.0;          ///< transmittance of the samples that look at the sun's disc
+    double discSamples = 0.0;   ///< how many look there
+    double transmittance = 0.0;
+    double distance = 0.0;  ///< ∫ t T σt dt, metres
+
+    bool operator==(const PixelSums&) const = default;
+};
+
+/// A picture in the making, all that is needed to go on with it.
+struct Film {
+    int width = 0;
+    int height = 0;
+    std::uint64_t samples = 0;  ///< of every pixel
+    std::uint64_t lost = 0;     ///< paths that met the limit of collisions
+    double seconds = 0.0;       ///< spent so far
+    std::vector<PixelSums> pixels;
+
+    bool operator==(const Film&) const = default;
+};
+
+/// Transmittance and distance have no noise but that of the place within the pixel, so few samples of them are enough:
+/// those whose number, counted from 1, is a power of two.
+inline bool isLineSample(std::uint64_t sample) {
+    return std::has_single_bit(sample + 1);
+}
+
+/// Depth of a pixel without a cloud, metres.
+constexpr double farDepth = 1e10;
+
+/// The means as layers: R, G, B, A, cloud.{R,G,B}, transmittance.{R,G,B}, depth.Z, from two samples on
+/// variance.{R,G,B} (of the mean, not of a sample), and sun.disc, the share of the pixel that the sun's disc covers,
+/// where it is in the picture. `sky` and `disc` are radiances. At least one sample.
+LayeredImage picture(const Film& film, const glm::dvec3& sky, const glm::dvec3& disc);
+
+}  // namespace lumulus::reference

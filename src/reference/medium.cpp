@@ -1,0 +1,125 @@
+#include "reference/medium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lumulus::reference {
+namespace {
+
+constexpr glm::ivec3 brick(4, 2, 2);
+constexpr std::size_t brickVoxels = 16;
+
+/// Offsets of the coordinates −1…count of one axis: bricks before it, then voxels within it.
+std::vector<std::size_t> offsetsOf(int count, int edge, std::size_t brickStride, std::size_t voxelStride) {
+    std::vector<std::size_t> offsets;
+    for (int padded = 0; padded < count + 2; ++padded) {
+        offsets.push_back(static_cast<std::size_t>(padded / edge) * brickStride +
+                          static_cast<std::size_t>(padded % edge) * voxelStride);
+    }
+    return offsets;
+}
+
+std::size_t bricksAlong(int count, int edge) {
+    return static_cast<std::size_t>((count + 2 + edge - 1) / edge);
+}
+
+/// Mean position in [0, 1] of a first collision within a piece of optical depth τ, given that there is one.
+double meanPosition(double tau) {
+    if (tau < 1e-3) return 0.5 - tau / 12.0;
+    return 1.0 / tau - 1.0 / std::expm1(tau);
+}
+
+}  // namespace
+
+Medium::Medium(const vdb::Volume& volume, double extinction)
+    : size_(volume.size),
+      extinction_(extinction),
+      maximumDensity_(0.0),
+      toVoxel_(glm::inverse(volume.toWorld.linear)),
+      translation_(volume.toWorld.translation) {
+    const std::size_t bricksX = bricksAlong(size_.x, brick.x), bricksY = bricksAlong(size_.y, brick.y);
+    offsetX_ = offsetsOf(size_.x, brick.x, brickVoxels, 1);
+    offsetY_ = offsetsOf(size_.y, brick.y, brickVoxels * bricksX, 4);
+    offsetZ_ = offsetsOf(size_.z, brick.z, brickVoxels * bricksX * bricksY, 8);
+    voxels_.assign(brickVoxels * bricksX * bricksY * bricksAlong(size_.z, brick.z), 0.0F);
+    for (int z = 0; z < size_.z; ++z) {
+        for (int y = 0; y < size_.y; ++y) {
+            for (int x = 0; x < size_.x; ++x) {
+                const float value = volume.density[volume.index(x, y, z)];
+                voxels_[indexOf(x, y, z)] = value;
+                maximumDensity_ = std::max(maximumDensity_, static_cast<double>(value));
+            }
+        }
+    }
+}
+
+std::size_t Medium::indexOf(int x, int y, int z) const {
+    return offsetX_[static_cast<std::size_t>(x + 1)] + offsetY_[static_cast<std::size_t>(y + 1)] +
+           offsetZ_[static_cast<std::size_t>(z + 1)];
+}
+
+double Medium::maximumWithin(const glm::ivec3& low, const glm::ivec3& high) const {
+    // a point between two voxel centres takes from both: the box reaches half a voxel further
+    const glm::ivec3 first = glm::max(low - 1, glm::ivec3(0));
+    const glm::ivec3 last = glm::min(high, size_ - 1);
+    float result = 0.0F;
+    for (int z = first.z; z <= last.z; ++z) {
+        for (int y = first.y; y <= last.y; ++y) {
+            for (int x = first.x; x <= last.x; ++x) result = std::max(result, voxels_[indexOf(x, y, z)]);
+        }
+    }
+    return result;
+}
+
+std::optional<Interval> Medium::clip(const VoxelRay& ray) const {
+    Interval interval{0.0, std::numeric_limits<double>::infinity()};
+    for (int axis = 0; axis < 3; ++axis) {
+        if (ray.step[axis] == 0.0) {
+            if (ray.origin[axis] < 0.0 || ray.origin[axis] > size_[axis]) return std::nullopt;
+            continue;
+        }
+        const double a = (0.0 - ray.origin[axis]) / ray.step[axis];
+        const double b = (size_[axis] - ray.origin[axis]) / ray.step[axis];
+        interval.begin = std::max(interval.begin, std::min(a, b));
+        interval.end = std::min(interval.end, std::max(a, b));
+    }
+    if (!(interval.begin < interval.end)) return std::nullopt;
+    return interval;
+}
+
+LineIntegrals integrateAlong(const Medium& medium, const VoxelRay& ray) {
+    LineIntegrals result;
+    const std::optional<Interval> inside = medium.clip(ray);
+    if (!inside) return result;
+    const glm::dvec3 size(medium.size());
+    // pieces end where the ray crosses a plane of voxel centres
+    glm::dvec3 next(std::numeric_limits<double>::infinity()), stride(next);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (ray.step[axis] == 0.0) continue;
+        const double sign = std::copysign(1.0, ray.step[axis]);
+        const double from = ray.at(inside->begin)[axis] - 0.5;
+        const double plane = (sign > 0.0 ? std::floor(from) + 1.0 : std::ceil(from) - 1.0) + 0.5;
+        next[axis] = (plane - ray.origin[axis]) / ray.step[axis];
+        stride[axis] = 1.0 / std::abs(ray.step[axis]);
+    }
+    constexpr double gauss = 0.28867513459481287;  // 1/(2√3)
+    for (double t = inside->begin; t < inside->end && result.transmittance > 0.0;) {
+        const int axis = next.x < next.y ? (next.x < next.z ? 0 : 2) : (next.y < next.z ? 1 : 2);
+        const double end = std::clamp(next[axis], t, inside->end);
+        next[axis] += stride[axis];
+        const double length = end - t, middle = 0.5 * (t + end);
+        const auto densityAt = [&](double at) { return medium.density(glm::clamp(ray.at(at), glm::dvec3(0.0), size)); };
+        const double tau = 0.5 * length * medium.extinctionScale() *
+                           (densityAt(middle - gauss * length) + densityAt(middle + gauss * length));
+        if (tau > 0.0) {
+            const double collided = -std::expm1(-tau);
+            result.distance += result.transmittance * collided * (t + length * meanPosition(tau));
+            result.transmittance *= 1.0 - collided;
+        }
+        t = end;
+    }
+    return result;
+}
+
+}  // namespace lumulus::reference

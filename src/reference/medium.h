@@ -1,0 +1,96 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "draw/camera.h"
+#include "vdb/volume.h"
+
+namespace lumulus::reference {
+
+/// A ray in voxel coordinates; `step` is the way of one metre in the world.
+struct VoxelRay {
+    glm::dvec3 origin{0.0};
+    glm::dvec3 step{0.0};
+
+    glm::dvec3 at(double metres) const { return origin + metres * step; }
+};
+
+/// Part of a ray, in metres from its origin.
+struct Interval {
+    double begin = 0.0;
+    double end = 0.0;
+};
+
+/// The density field as the reference reads it: the voxels' own floats, trilinear between voxel centres, zero outside
+/// the box. Voxel coordinates are those of vdb::Volume.
+class Medium {
+  public:
+    /// `extinction` [1/m] at density 1.
+    Medium(const vdb::Volume& volume, double extinction);
+
+    const glm::ivec3& size() const { return size_; }
+    /// Largest density of a voxel.
+    double maximumDensity() const { return maximumDensity_; }
+    double extinctionScale() const { return extinction_; }
+
+    /// Largest density of the voxels that the interpolated field touches in the box [low, high) of voxel coordinates.
+    double maximumWithin(const glm::ivec3& low, const glm::ivec3& high) const;
+
+    /// Density at voxel coordinates within [0, size].
+    double density(const glm::dvec3& p) const;
+
+    glm::dvec3 toVoxel(const glm::dvec3& world) const { return toVoxel_ * (world - translation_); }
+    /// The way of a unit vector of the world.
+    glm::dvec3 stepOf(const glm::dvec3& direction) const { return toVoxel_ * direction; }
+    VoxelRay toVoxel(const Ray& ray) const { return {toVoxel(ray.origin), stepOf(ray.direction)}; }
+
+    /// The part of the ray within the box, from metre 0 on; absent where it misses.
+    std::optional<Interval> clip(const VoxelRay& ray) const;
+
+  private:
+    std::size_t indexOf(int x, int y, int z) const;
+
+    glm::ivec3 size_;
+    double extinction_;
+    double maximumDensity_;
+    glm::dmat3 toVoxel_;
+    glm::dvec3 translation_;
+    // Voxels in bricks of 4×2×2, a cache line each, with a ring of zeros around the volume; offsets by coordinate add
+    // up to the index.
+    std::vector<float> voxels_;
+    std::vector<std::size_t> offsetX_, offsetY_, offsetZ_;
+};
+
+inline double Medium::density(const glm::dvec3& p) const {
+    // coordinates of the ring, which begins a voxel and a half before the first centre
+    const glm::dvec3 q = p + 0.5;
+    const auto x = static_cast<std::size_t>(q.x), y = static_cast<std::size_t>(q.y), z = static_cast<std::size_t>(q.z);
+    const auto fx = static_cast<float>(q.x - static_cast<double>(x));
+    const auto fy = static_cast<float>(q.y - static_cast<double>(y));
+    const auto fz = static_cast<float>(q.z - static_cast<double>(z));
+    const std::size_t x0 = offsetX_[x], x1 = offsetX_[x + 1];
+    const std::size_t y0 = offsetY_[y], y1 = offsetY_[y + 1];
+    const std::size_t z0 = offsetZ_[z], z1 = offsetZ_[z + 1];
+    const float* v = voxels_.data();
+    const auto row = [&](std::size_t offset) {
+        const float a = v[offset + x0], b = v[offset + x1];
+        return a + fx * (b - a);
+    };
+    const float near0 = row(y0 + z0), near1 = row(y1 + z0), far0 = row(y0 + z1), far1 = row(y1 + z1);
+    const float near = near0 + fy * (near1 - near0), far = far0 + fy * (far1 - far0);
+    return static_cast<double>(near + fz * (far - near));
+}
+
+/// What a ray meets in the whole medium.
+struct LineIntegrals {
+    double transmittance = 1.0;
+    double distance = 0.0;  ///< ∫ t T σt dt, metres from the ray's origin: over 1 − T, the mean distance
+};
+
+/// Integrals along the ray without noise: between voxel centres the trilinear density is a cubic polynomial in t, which
+/// Gauss's two points integrate exactly; the distance takes σt as constant within each such piece.
+LineIntegrals integrateAlong(const Medium& medium, const VoxelRay& ray);
+
+}  // namespace lumulus::reference

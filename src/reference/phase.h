@@ -1,0 +1,41 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "reference/random.h"
+#include "scene/scene.h"
+
+namespace lumulus::reference {
+
+/// 1 − cos of the angle between two unit vectors, with all its digits where they are nearly parallel.
+inline double oneMinusCosBetween(const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 difference = a - b;
+    return 0.5 * glm::dot(difference, difference);
+}
+
+/// A phase function of its own for the reference, in double: p in 1/sr, ∫ p dω = 1, of the angle between the directions
+/// of travel before and after, carried as 1 − cos θ. All samplers are exact (pdf = p).
+class PhaseFunction {
+  public:
+    /// Errors: InputError where the parameters make no phase function.
+    explicit PhaseFunction(const scene::Phase& phase);
+
+    /// p [1/sr].
+    double evaluate(double oneMinusCos) const;
+
+    /// 1 − cos θ of a scattering, in [0, 2].
+    double sample(Random& random) const;
+
+  private:
+    scene::PhaseModel model_;
+    double g_ = 0.0;  ///< of Henyey–Greenstein; Schlick's k
+    // droplets: (1 − share)·HG(g) + share·Draine(draineG, draineAlpha)
+    double draineG_ = 0.0;
+    double draineAlpha_ = 0.0;
+    double draineShare_ = 0.0;
+};
+
+/// The unit vector at an angle from `direction`, 1 − cos of which is given, with a random azimuth.
+glm::dvec3 turned(const glm::dvec3& direction, double oneMinusCos, Random& random);
+
+}  // namespace lumulus::reference

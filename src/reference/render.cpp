@@ -1,0 +1,122 @@
+#include "reference/render.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "reference/fingerprint.h"
+
+namespace lumulus::reference {
+namespace {
+
+void addVector(Fingerprint& print, const glm::dvec3& v) {
+    print.add(v.x).add(v.y).add(v.z);
+}
+
+void addCloud(Fingerprint& print, const scene::Cloud& cloud, const vdb::Volume& volume) {
+    print.add(volume.size.x).add(volume.size.y).add(volume.size.z);
+    print.add(std::as_bytes(std::span(volume.density)));
+    for (int axis = 0; axis < 3; ++axis) addVector(print, volume.toWorld.linear[axis]);
+    addVector(print, volume.toWorld.translation);
+    print.add(cloud.extinction * cloud.densityScale).add(cloud.phase.model).add(cloud.phase.g);
+    print.add(cloud.phase.dropletDiameter);
+    addVector(print, cloud.albedo);
+}
+
+void addCamera(Fingerprint& print, const Camera& camera) {
+    print.add(camera.width).add(camera.height).add(camera.projection);
+    print.add(camera.tanHalfFov).add(camera.orthographicHeight);
+    addVector(print, camera.position);
+    for (int axis = 0; axis < 3; ++axis) addVector(print, camera.axes[axis]);
+}
+
+std::uint64_t fingerprintOf(const scene::Scene& scene, const vdb::Volume* volume, const Camera& camera,
+                            Majorant majorant, std::uint64_t seed) {
+    Fingerprint print;
+    print.add(seed).add(majorant).add(scene.sun.angularDiameter);
+    addVector(print, scene.sun.directionTo);
+    addVector(print, scene.sun.irradiance);
+    addVector(print, scene.sky.radiance);
+    addCamera(print, camera);
+    if (volume != nullptr && !scene.clouds.empty()) addCloud(print, scene.clouds.front(), *volume);
+    return print.value();
+}
+
+}  // namespace
+
+Renderer::Renderer(const scene::Scene& scene, const vdb::Volume* volume, Majorant majorant, std::uint64_t seed)
+    : tracer_(scene, volume, majorant),
+      camera_(makeCamera(scene.camera, scene.image, volume != nullptr ? boundsOf(*volume) : Bounds{})),
+      discRadiance_(tracer_.discRadiance(scene.sun.directionTo)),
+      seed_(seed),
+      fingerprint_(fingerprintOf(scene, volume, camera_, majorant, seed)) {
+    film_.width = scene.image.width;
+    film_.height = scene.image.height;
+    pass_.resize(static_cast<std::size_t>(film_.width) * static_cast<std::size_t>(film_.height));
+    film_.pixels.resize(pass_.size());
+}
+
+void Renderer::resume(Film film) {
+    assert(film.pixels.size() == film_.pixels.size());
+    film_ = std::move(film);
+}
+
+Renderer::Sample Renderer::sample(int x, int y) const {
+    const auto pixel =
+        static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(film_.width) + static_cast<std::uint64_t>(x);
+    Random random(seed_, pixel, film_.samples);
+    const double px = x + random.uniform(), py = y + random.uniform();
+    const Ray ray = camera_.ray(px, py);
+    const PathSample path = tracer_.trace(ray, random);
+    Sample result;
+    result.lost = path.lost;
+    result.sums.scattered = path.radiance;
+    result.sums.passed = path.passed ? 1.0 : 0.0;
+    const bool atDisc = tracer_.discRadiance(ray.direction) != glm::dvec3(0.0);
+    const bool forLines = isLineSample(film_.samples);
+    if (atDisc || forLines) {
+        const LineIntegrals line = tracer_.integrate(ray);
+        result.sums.transmittance = forLines ? line.transmittance : 0.0;
+        result.sums.distance = forLines ? line.distance : 0.0;
+        result.sums.disc = atDisc ? line.transmittance : 0.0;
+        result.sums.discSamples = atDisc ? 1.0 : 0.0;
+    }
+    const glm::dvec3 radiance =
+        result.sums.scattered + result.sums.passed * tracer_.sky() + result.sums.disc * discRadiance_;
+    result.sums.square = radiance * radiance;
+    return result;
+}
+
+bool Renderer::pass(const Continue& goOn) {
+    // bands of about this many paths: under a second between two questions whether to stop
+    constexpr int bandPaths = 1 << 15;
+    const int rows = std::clamp(bandPaths / film_.width, 1, film_.height);
+    for (int begin = 0; begin < film_.height; begin += rows) {
+        const int end = std::min(begin + rows, film_.height);
+        tbb::parallel_for(begin * film_.width, end * film_.width, [&](int pixel) {
+            pass_[static_cast<std::size_t>(pixel)] = sample(pixel % film_.width, pixel / film_.width);
+        });
+        if (!goOn(static_cast<std::uint64_t>(end - begin))) return false;
+    }
+    for (std::size_t i = 0; i < pass_.size(); ++i) {
+        PixelSums& sums = film_.pixels[i];
+        const PixelSums& added = pass_[i].sums;
+        sums.scattered += added.scattered;
+        sums.square += added.square;
+        sums.passed += added.passed;
+        sums.disc += added.disc;
+        sums.discSamples += added.discSamples;
+        sums.transmittance += added.transmittance;
+        sums.distance += added.distance;
+        film_.lost += pass_[i].lost ? 1 : 0;
+    }
+    ++film_.samples;
+    return true;
+}
+
+LayeredImage Renderer::picture() const {
+    return reference::picture(film_, tracer_.sky(), discRadiance_);
+}
+
+}  // namespace lumulus::reference

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "draw/camera.h"
+#include "reference/film.h"
+#include "reference/tracer.h"
+
+namespace lumulus::reference {
+
+/// Renders a scene without bias, a sample of every pixel at a time.
+class Renderer {
+  public:
+    /// Called between bands of rows with the number of rows done since the last call; false stops the pass.
+    using Continue = std::function<bool(std::uint64_t rows)>;
+
+    /// `volume` is read in the constructor only; null: a scene without a cloud.
+    /// Errors: InputError for a scene that makes no sense (see makeCamera, PhaseFunction).
+    Renderer(const scene::Scene& scene, const vdb::Volume* volume, Majorant majorant, std::uint64_t seed);
+
+    /// One more sample of every pixel, at a random point of the pixel (a box filter), on all threads of TBB. A pass
+    /// that is stopped leaves the film as it was, and returns false.
+    bool pass(const Continue& goOn);
+
+    const Film& film() const { return film_; }
+    /// Goes on from a film of the same fingerprint.
+    void resume(Film film);
+    /// Counts time spent on the film, for its record.
+    void addSeconds(double seconds) { film_.seconds += seconds; }
+    /// Of everything that the film depends on.
+    std::uint64_t fingerprint() const { return fingerprint_; }
+
+    /// The layers of the film; at least one sample.
+    LayeredImage picture() const;
+
+  private:
+    /// One sample of a pixel, and what it adds to the count of lost paths.
+    struct Sample {
+        PixelSums sums;
+        bool lost = false;
+    };
+
+    Sample sample(int x, int y) const;
+
+    PathTracer tracer_;
+    Camera camera_;
+    glm::dvec3 discRadiance_;
+    std::uint64_t seed_;
+    std::uint64_t fingerprint_;
+    Film film_;
+    std::vector<Sample> pass_;  ///< of the pass under way
+};
+
+}  // namespace lumulus::reference

@@ -1,0 +1,240 @@
+#include "renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "cloud/cloud.h"
+#include "draw/billboards.h"
+#include "draw/camera.h"
+#include "draw/sky.h"
+#include "draw/sun_depth.h"
+#include "draw/view.h"
+#include "gpu/commands.h"
+#include "photon/photon_map.h"
+#include "volume/load.h"
+
+namespace lumulus {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+constexpr double degrees = 3.14159265358979323846 / 180.0;
+
+double largest(const glm::dvec3& v) {
+    return std::max(v.x, std::max(v.y, v.z));
+}
+
+/// Rows drawn at once: what fits into 64 MiB of pixels, in whole tiles.
+int bandRows(const Camera& camera) {
+    const auto row = static_cast<std::int64_t>(sizeof(shared::Pixel)) * camera.width;
+    const std::int64_t tiles = (std::int64_t{64} << 20) / (row * shared::TILE_EDGE);
+    return static_cast<int>(std::clamp<std::int64_t>(tiles, 1, (camera.height + 15) / 16)) * shared::TILE_EDGE;
+}
+
+void addTime(std::vector<PassTime>& times, const gpu::PassTime& pass) {
+    const auto known = std::find_if(times.begin(), times.end(), [&](const PassTime& t) { return t.name == pass.name; });
+    if (known == times.end())
+        times.push_back({pass.name, pass.milliseconds});
+    else
+        known->milliseconds += pass.milliseconds;
+}
+
+}  // namespace
+
+struct Renderer::State {
+    State(const scene::Scene& theScene, const RendererOptions& options)
+        : scene(theScene), context({options.device, options.validation}), commands(context) {}
+
+    scene::Scene scene;
+    gpu::Context context;
+    gpu::Commands commands;
+    Camera camera;
+
+    // What follows exists only where the scene needs it.
+    photon::Medium medium;
+    std::optional<cloud::Cloud> cloud;
+    std::optional<photon::PhotonMap> photons;
+    std::optional<draw::SunDepth> sunDepth;
+    std::optional<draw::PhaseBuffers> phase;
+    std::optional<draw::Billboards> billboards;
+
+    bool sunDrawn = false;  // the sun's depths are up to date
+    Statistics statistics;
+
+    bool scatters() const { return largest(medium.albedo) > 0.0; }
+    bool hasSun() const { return largest(scene.sun.irradiance) > 0.0; }
+    bool hasLight() const { return hasSun() || largest(scene.sky.radiance) > 0.0; }
+
+    void makeMedium(const scene::Cloud& from, double maximum);
+    void prepareCloud(const vdb::Volume& volume);
+    void preparePhotons();
+    void drawCloud(LayeredImage& image);
+    void drawBand(LayeredImage& image, gpu::Buffer& params, gpu::Buffer& pixels, const gpu::Buffer& none, int firstRow,
+                  int rows);
+    glm::vec3 eyeVoxel() const;
+};
+
+void Renderer::State::makeMedium(const scene::Cloud& from, double maximum) {
+    medium.extinction = from.extinction * from.densityScale * maximum;
+    medium.albedo = from.albedo;
+    medium.tables = phase::makeScatteringTables(from.phase, scene.photonMap.forwardCut * degrees, from.albedo,
+                                                scene.photonMap.bands, scene.sun.angularDiameter * degrees);
+}
+
+void Renderer::State::prepareCloud(const vdb::Volume& volume) {
+    cloud::PrepareOptions options;
+    options.preparation = scene.preparation;
+    options.majorant = scene.photonMap.majorant;
+    const double forward = scene.photonMap.bands > 1 ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
+    options.reducedExtinction = medium.extinction * static_cast<double>(medium.tables.turnFraction) * (1.0 - forward);
+    cloud.emplace(cloud::prepare(context, volume, options));
+    statistics.collectors = cloud->collectors.size();
+}
+
+void Renderer::State::preparePhotons() {
+    if (!scatters() || !hasLight()) return;
+    const scene::PhotonMap& wanted = scene.photonMap;
+    const auto generations = static_cast<std::uint64_t>(wanted.generations);
+    const std::uint64_t each = (static_cast<std::uint64_t>(wanted.photons) + generations - 1) / generations;
+    if (each > 0xF0000000ULL)
+        throw InputError("a generation would hold " + std::to_string(each) + " photons, more than 4026531840",
+                         "photon_map.photons", "ask for more generations or fewer photons");
+    photon::Options options;
+    options.photonsPerGeneration = each;
+    options.generations = wanted.generations;
+    options.firstGeneration = static_cast<std::uint32_t>(wanted.firstGeneration);
+    options.bands = wanted.bands;
+    options.seed = wanted.seed;
+    photons.emplace(context, *cloud, medium, options);
+}
+
+Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
+    : state_(std::make_unique<State>(scene, options)) {
+    State& s = *state_;
+    s.statistics.device = s.context.device().name;
+    if (scene.clouds.empty()) {
+        s.camera = makeCamera(scene.camera, scene.image, Bounds{});
+        return;
+    }
+    auto start = Clock::now();
+    CloudVolume loaded = loadCloudVolume(scene.clouds[0], scene.preparation.memoryBudget);
+    s.statistics.warnings = std::move(loaded.warnings);
+    s.statistics.loadSeconds = secondsSince(start);
+    s.camera = makeCamera(scene.camera, scene.image, boundsOf(loaded.volume));
+    if (loaded.volume.empty()) return;
+
+    start = Clock::now();
+    s.makeMedium(scene.clouds[0], static_cast<double>(loaded.volume.maximum));
+    if (s.medium.extinction > 0.0) {
+        s.prepareCloud(loaded.volume);
+        s.preparePhotons();
+        const draw::DrawFeatures features{!s.medium.tables.oneTurnH.empty(), s.scatters() && s.hasSun(),
+                                          s.photons.has_value()};
+        if (features.sun) s.sunDepth.emplace(s.context, *s.cloud);
+        s.phase.emplace(s.context, s.medium.tables);
+        s.billboards.emplace(s.context, *s.cloud, features);
+    }
+    s.statistics.prepareSeconds = secondsSince(start);
+}
+
+Renderer::~Renderer() = default;
+
+int Renderer::generationsWanted() const {
+    return state_->photons ? state_->scene.photonMap.generations : 0;
+}
+
+void Renderer::traceGeneration() {
+    State& s = *state_;
+    const auto start = Clock::now();
+    if (s.photons) s.photons->trace(s.scene.sun, s.scene.sky);
+    s.statistics.traceSeconds += secondsSince(start);
+}
+
+glm::vec3 Renderer::State::eyeVoxel() const {
+    // An orthographic eye is far away: all collectors see it in one direction.
+    glm::dvec3 eye = camera.position;
+    if (camera.projection == scene::Projection::orthographic) {
+        const glm::dvec3 edges = cloud->toWorld.linear * glm::dvec3(cloud->size);
+        eye -= camera.axes[2] * (1e5 * glm::length(edges));
+    }
+    return glm::vec3(glm::inverse(cloud->toWorld.linear) * (eye - cloud->toWorld.translation));
+}
+
+void Renderer::State::drawBand(LayeredImage& image, gpu::Buffer& params, gpu::Buffer& pixels, const gpu::Buffer& none,
+                               int firstRow, int rows) {
+    shared::DrawParams values{};
+    values.view = draw::viewParams(camera);
+    values.light = draw::lightParams(scene.sun, scene.sky, medium.albedo, medium.tables);
+    values.firstRow = firstRow;
+    values.rows = rows;
+    values.tilesAcross = billboards->tilesAcross();
+    params.mapped<shared::DrawParams>()[0] = values;
+    commands.begin();
+    if (firstRow == 0) {
+        if (sunDepth && !sunDrawn) {
+            sunDepth->record(commands, -scene.sun.directionTo, medium.extinction);
+            sunDrawn = true;
+        }
+        if (photons) photons->reconstruct(commands, eyeVoxel());
+        commands.barrier("collector light");
+    }
+    billboards->record(commands, params, values, photons ? photons->radiance() : none,
+                       sunDepth ? sunDepth->collectorDepths() : none, *phase, pixels);
+    commands.submit();
+    commands.wait();
+    for (const gpu::PassTime& pass : commands.times()) addTime(statistics.passes, pass);
+    draw::copyPixels(pixels.mapped<const shared::Pixel>(), image, firstRow, rows);
+}
+
+void Renderer::State::drawCloud(LayeredImage& image) {
+    billboards->prepare(camera, medium.extinction);
+    const int band = bandRows(camera);
+    gpu::Buffer params(context, "draw params", sizeof(shared::DrawParams), gpu::Memory::host);
+    gpu::Buffer pixels(
+        context, "pixels",
+        static_cast<std::uint64_t>(band) * static_cast<std::uint64_t>(camera.width) * sizeof(shared::Pixel),
+        gpu::Memory::host);
+    const gpu::Buffer none(context, "none", 0, gpu::Memory::device);
+    for (int row = 0; row < camera.height; row += band)
+        drawBand(image, params, pixels, none, row, std::min(band, camera.height - row));
+    statistics.gpuBytes = context.allocatedBytes();
+}
+
+LayeredImage Renderer::draw() {
+    State& s = *state_;
+    const auto start = Clock::now();
+    LayeredImage image = draw::skyImage(s.camera, s.scene.sun, s.scene.sky);
+    s.statistics.passes.clear();
+    if (s.photons)
+        for (const gpu::PassTime& pass : s.photons->times()) addTime(s.statistics.passes, pass);
+    if (s.billboards) s.drawCloud(image);
+    s.statistics.drawSeconds += secondsSince(start);
+    return image;
+}
+
+Statistics Renderer::statistics() const {
+    Statistics result = state_->statistics;
+    if (state_->photons) {
+        const photon::Counters& c = state_->photons->counters();
+        result.photons = c.emitted;
+        result.generations = static_cast<std::uint64_t>(state_->photons->generationsInRing());
+        result.events = c.events;
+        result.nullCollisions = c.nulls;
+        result.absorbed = c.absorbed;
+        result.escaped = c.escaped;
+        result.lost = c.lost;
+        result.saturated = c.saturated;
+    }
+    result.validationMessages = state_->context.validationMessages();
+    return result;
+}
+
+}  // namespace lumulus

@@ -1,0 +1,77 @@
+#include "scene/document.h"
+
+#include <fmt/format.h>
+
+#include "scene/schema.h"
+
+namespace lumulus::scene {
+namespace {
+
+constexpr std::string_view introduction = R"(# The scene file
+
+Made by `lumulus info --scene-format > docs/scene-format.md`; a test compares the two. Do not edit by hand.
+
+A scene is a [TOML](https://toml.io) file of at most 1 MiB. Every key has a default: an empty file renders the
+procedural cumulus under a sun and a blue sky. Unknown keys, wrong types and values out of range are errors that name
+the key and the line. Numbers may be written as integers; `1e6` may stand for a whole number. NaN and infinity are
+refused everywhere.
+
+- Units: metres, degrees, W/m² and W/(m² sr) per channel of linear Rec. 709. Right-handed, +Y is up.
+- Paths are relative to the scene file.
+- `[[cloud]]` stands in two brackets. This version renders one cloud; `cloud = []` is a scene without any.
+- `--set section.key=value` overrides a key, `--set cloud.0.extinction=0.2` one of the cloud. The value is TOML, or
+  else a bare string: `--set draw.mode=march`. An override of one of two keys that exclude each other (`sun.azimuth`,
+  `sun.direction_to`; `cloud.0.vdb`, `cloud.0.procedural`) takes the file's other one out.
+- `--quality` stands below the file: it changes only what the scene leaves out.
+
+| quality | photons | generations | bands |
+|---|---|---|---|
+| `draft` | 200000 | 10 | 3 |
+| `interactive` | 1000000 | 20 | 4 |
+| `final` | 8000000 | 40 | 6 |
+)";
+
+std::string heading(std::string_view section) {
+    if (section == "cloud") return "[[cloud]]";
+    if (section.starts_with("cloud."))
+        return fmt::format("[{}] (or `{} = {{ … }}` in the cloud)", section, section.substr(section.rfind('.') + 1));
+    return fmt::format("[{}]", section);
+}
+
+std::string typeAndRange(const Key& key) {
+    switch (key.type) {
+        case Type::choice:
+            return fmt::format("`\"{}\"`", fmt::join(key.choices, "\"`, `\""));
+        case Type::number:
+        case Type::integer:
+        case Type::rgb:
+            return typeText(key) + ", " + key.range.text();
+        default:
+            return typeText(key);
+    }
+}
+
+std::string fallbackCell(const Key& key) {
+    if (key.fallback.starts_with('(')) return std::string(key.fallback.substr(1, key.fallback.size() - 2));
+    return fmt::format("`{}`", key.fallback);
+}
+
+}  // namespace
+
+std::string sceneFormatMarkdown() {
+    std::string text(introduction);
+    std::string_view section;
+    for (const Key& key : schema()) {
+        const std::size_t dot = key.name.rfind('.');
+        if (key.name.substr(0, dot) != section) {
+            section = key.name.substr(0, dot);
+            text +=
+                fmt::format("\n## {}\n\n| key | value | default | meaning |\n|---|---|---|---|\n", heading(section));
+        }
+        text += fmt::format("| `{}` | {} | {} | {} |\n", key.name.substr(dot + 1), typeAndRange(key), fallbackCell(key),
+                            key.documentation);
+    }
+    return text;
+}
+
+}  // namespace lumulus::scene

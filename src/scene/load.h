@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scene/quality.h"
+#include "scene/scene.h"
+
+namespace lumulus::scene {
+
+/// Reads a scene file. `overrides` are the strings of --set (`section.key=value`); a preset applies below the file.
+/// Errors: InputError that names file, line and key.
+Scene loadScene(const std::filesystem::path& path, std::span<const std::string> overrides = {},
+                std::optional<Quality> quality = std::nullopt);
+
+/// The same for text; `sourceName` stands for the file in messages, and relative paths start in its folder.
+Scene parseScene(std::string_view toml, const std::string& sourceName, std::span<const std::string> overrides = {},
+                 std::optional<Quality> quality = std::nullopt);
+
+}  // namespace lumulus::scene

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The scene as values: what the file says, with every default filled in and every value checked at the door.
+/// Units: metres, degrees (angles of the file), W·m⁻² and W·m⁻²·sr⁻¹ per channel, 1/m.
+namespace lumulus::scene {
+
+struct Image {
+    int width = 1280;
+    int height = 720;
+    double exposure = 0.0;  ///< photographic stops, applied before the tone map of PNG files only
+
+    bool operator==(const Image&) const = default;
+};
+
+enum class Projection { perspective, orthographic, panorama };
+
+struct Camera {
+    std::optional<glm::dvec3> position;  ///< absent: placed so that the cloud fills the picture
+    std::optional<glm::dvec3> target;    ///< absent: the middle of the cloud
+    glm::dvec3 up{0.0, 1.0, 0.0};
+    double verticalFov = 40.0;  ///< degrees; for an orthographic camera the angle that frames the target's distance
+    Projection projection = Projection::perspective;
+
+    bool operator==(const Camera&) const = default;
+};
+
+/// The unit vector towards a point of the sky. Azimuth 0 looks along −Z and 90 along +X (north and east where −Z is
+/// north); elevation is the angle above the horizon. Degrees.
+inline glm::dvec3 skyDirection(double azimuth, double elevation) {
+    const double a = glm::radians(azimuth), e = glm::radians(elevation);
+    return {std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a)};
+}
+
+inline constexpr double defaultAzimuth = 120.0, defaultElevation = 40.0;  ///< of the sun, degrees
+
+struct Sun {
+    glm::dvec3 directionTo = skyDirection(defaultAzimuth, defaultElevation);  ///< unit vector towards the sun
+    glm::dvec3 irradiance{3.0, 2.85, 2.6};                                    ///< on a plane that faces the sun, RGB
+    double angularDiameter = 0.53;                                            ///< degrees
+
+    bool operator==(const Sun&) const = default;
+};
+
+struct Sky {
+    glm::dvec3 radiance{0.25, 0.4, 0.7};  ///< constant over the sphere, RGB
+
+    bool operator==(const Sky&) const = default;
+};
+
+enum class PhaseModel { henyeyGreenstein, schlick, rayleigh, hazy, murky, droplet };
+
+struct Phase {
+    PhaseModel model = PhaseModel::henyeyGreenstein;
+    double g = 0.85;
+    double dropletDiameter = 20.0;  ///< µm, 5 to 50, for `droplet`
+
+    bool operator==(const Phase&) const = default;
+};
+
+struct Cloud {
+    std::filesystem::path vdb;  ///< empty: procedural
+    std::string grid;           ///< empty: the first float grid, "density" preferred
+    std::string procedural = "cumulus";
+    int resolution = 128;  ///< voxels along the longest side of a procedural cloud
+    std::uint64_t seed = 1;
+    glm::dmat4 transform{1.0};  ///< applied after the grid's own transform
+    double densityScale = 1.0;
+    double extinction = 0.05;  ///< σt = extinction · density_scale · value [1/m]
+    glm::dvec3 albedo{1.0};
+    Phase phase;
+
+    bool operator==(const Cloud&) const = default;
+};
+
+struct Preparation {
+    int samples = 20000;
+    double densityThreshold = 0.1;          ///< of the maximum: a leaf with a smaller range is not split further
+    std::optional<double> influenceRadius;  ///< metres; absent: from the mean distance of samples
+    int maxLeaves = 32768;
+    double memoryBudget = 512.0;  ///< MiB for the density volume on the GPU
+
+    bool operator==(const Preparation&) const = default;
+};
+
+enum class Majorant { automatic, local, global };
+
+struct PhotonMap {
+    std::int64_t photons = 2000000;  ///< in the whole ring
+    int generations = 20;
+    std::int64_t firstGeneration = 0;
+    int bands = 5;
+    double forwardCut = 0.0;  ///< degrees; 0 = off
+    Majorant majorant = Majorant::automatic;
+    std::uint64_t seed = 1;
+
+    bool operator==(const PhotonMap&) const = default;
+};
+
+enum class DrawMode { march, billboards };
+
+struct Draw {
+    DrawMode mode = DrawMode::billboards;
+
+    bool operator==(const Draw&) const = default;
+};
+
+struct Scene {
+    Image image;
+    Camera camera;
+    Sun sun;
+    Sky sky;
+    std::vector<Cloud> clouds;
+    Preparation preparation;
+    PhotonMap photonMap;
+    Draw draw;
+    std::string source;  ///< file name, for messages and the EXR header
+
+    bool operator==(const Scene&) const = default;
+};
+
+}  // namespace lumulus::scene

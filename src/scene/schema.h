@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace lumulus::scene {
+
+enum class Type { number, integer, vector, rgb, matrix, text, path, choice };
+
+/// Where numbers (each component of a vector) must lie. NaN and infinity never do.
+struct Range {
+    double low = -1e9;
+    double high = 1e9;
+    bool openLow = false;
+    bool openHigh = false;
+
+    bool contains(double x) const;
+    std::string text() const;  ///< "0…1", "above 0, at most 90"
+};
+
+/// What one key of the file says, in the member that fits the key's type.
+struct Value {
+    double number = 0.0;
+    std::int64_t integer = 0;
+    glm::dvec3 vector{0.0};  ///< also RGB
+    glm::dmat4 matrix{1.0};
+    std::string text;        ///< also a choice
+    std::size_t choice = 0;  ///< index into the choices of the key
+};
+
+/// A scene while its keys are read one by one.
+struct Draft {
+    Scene scene;
+    std::size_t cloud = 0;         ///< the cloud that `cloud.*` keys belong to
+    std::filesystem::path folder;  ///< of the scene file: relative paths start here
+    std::optional<glm::dvec3> directionTo;
+    std::optional<double> azimuth, elevation;  ///< of the sun, degrees
+};
+
+/// One key of the scene file. The parser, its messages and docs/scene-format.md all come from these rows.
+struct Key {
+    std::string_view name;  ///< "section.key"; the keys of [[cloud]] are "cloud.key", without the index
+    Type type;
+    Range range;
+    std::vector<std::string_view> choices;
+    std::string_view fallback;  ///< default as TOML; where it is none, in words within parentheses
+    std::string_view documentation;
+    void (*set)(Draft&, const Value&);
+};
+
+/// All keys, section by section.
+const std::vector<Key>& schema();
+
+/// The row of that name, or null.
+const Key* findKey(std::string_view name);
+
+/// True for "image", "cloud", "cloud.phase", …
+bool isSection(std::string_view name);
+
+/// What a value has to be, in words: "a number", "one of \"march\", \"billboards\"".
+std::string typeText(const Key& key);
+
+}  // namespace lumulus::scene

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <toml++/toml.h>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "scene/schema.h"
+
+namespace lumulus::scene {
+
+/// One key that somebody gave a value.
+struct Setting {
+    const Key* key = nullptr;
+    const toml::node* node = nullptr;  ///< lives in the Settings
+    std::string where;                 ///< "scenes/x.toml:14, cloud.0.albedo" or "--set cloud.0.albedo"
+    bool fromFile = true;
+};
+
+/// All keys that the file and the overrides give, by path ("cloud.0.albedo"); overrides replace the file's.
+class Settings {
+  public:
+    /// The keys of a TOML document. Errors: InputError for bad TOML and for keys that do not exist.
+    void addFile(std::string_view text, const std::string& source);
+    /// `section.key=value`, the value as TOML or else as a bare string. An override of one of two alternatives
+    /// (`sun.azimuth`, `sun.direction_to`) takes the file's other one out. Errors: InputError.
+    void addOverride(std::string_view text);
+
+    const std::map<std::string, Setting>& all() const { return settings_; }
+    const Setting* find(const std::string& path) const;
+    /// Number of [[cloud]] entries; absent where nothing is said about clouds.
+    std::optional<std::size_t> clouds() const { return clouds_; }
+
+  private:
+    struct Origin;
+    void collect(const toml::node& node, const std::string& path, const std::string& name, const Origin& origin);
+    void collectClouds(const toml::node& node, const Origin& origin);
+    void put(const std::string& path, Setting setting);
+
+    std::deque<toml::table> documents_;  // a deque: nodes stay where they are
+    std::map<std::string, Setting> settings_;
+    std::optional<std::size_t> clouds_;
+};
+
+}  // namespace lumulus::scene

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "vdb/volume.h"
+
+namespace lumulus {
+
+/// The density of a scene's cloud, with what there is to warn of.
+struct CloudVolume {
+    vdb::Volume volume;
+    std::vector<std::string> warnings;
+};
+
+/// Loads or makes the cloud, its transform applied. `memoryBudget` in MiB. Errors: InputError for bad grids.
+CloudVolume loadCloudVolume(const scene::Cloud& cloud, double memoryBudget);
+
+}  // namespace lumulus

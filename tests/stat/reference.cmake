@@ -1,0 +1,4 @@
+lumulus_test(reference_slab_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_slab_test.cpp LINK lumulus_reference)
+lumulus_test(reference_tracer_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_tracer_test.cpp LINK lumulus_reference)
+lumulus_test(reference_render_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_render_test.cpp
+             LINK lumulus_reference TBB::tbb)

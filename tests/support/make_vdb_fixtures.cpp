@@ -1,0 +1,101 @@
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/LevelSetSphere.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+// Writes the OpenVDB files that the tests of the command line render, good and bad: make_vdb_fixtures FOLDER
+namespace {
+
+using openvdb::Coord;
+using openvdb::FloatGrid;
+
+/// The voxel size in metres: a number that is easy to find in the file, for the test that damages the transform.
+constexpr double voxelSize = 1.2345678;
+
+FloatGrid::Ptr emptyGrid() {
+    auto grid = FloatGrid::create(0.0F);
+    grid->setName("density");
+    grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(voxelSize));
+    return grid;
+}
+
+/// A ball of density 1, radius 6 voxels.
+FloatGrid::Ptr ball() {
+    auto grid = emptyGrid();
+    auto accessor = grid->getAccessor();
+    for (int z = -6; z <= 6; ++z) {
+        for (int y = -6; y <= 6; ++y) {
+            for (int x = -6; x <= 6; ++x) {
+                if (x * x + y * y + z * z <= 36) accessor.setValue(Coord(x, y, z), 1.0F);
+            }
+        }
+    }
+    return grid;
+}
+
+FloatGrid::Ptr ballWith(float value) {
+    auto grid = ball();
+    grid->tree().setValue(Coord(1, 2, 3), value);
+    return grid;
+}
+
+FloatGrid::Ptr oneVoxel() {
+    auto grid = emptyGrid();
+    grid->tree().setValue(Coord(0, 0, 0), 1.0F);
+    return grid;
+}
+
+FloatGrid::Ptr zeros() {
+    auto grid = emptyGrid();
+    grid->fill(openvdb::CoordBBox(Coord(0), Coord(9)), 0.0F, true);
+    return grid;
+}
+
+FloatGrid::Ptr farAway() {
+    auto grid = ball();
+    grid->transform().postTranslate(openvdb::Vec3d(1e7, 1e7, -1e7));
+    return grid;
+}
+
+FloatGrid::Ptr levelSet() {
+    auto grid = openvdb::tools::createLevelSetSphere<FloatGrid>(6.0F, openvdb::Vec3f(0.0F), 1.0F);
+    grid->setName("density");
+    return grid;
+}
+
+openvdb::Vec3SGrid::Ptr vectors() {
+    auto grid = openvdb::Vec3SGrid::create();
+    grid->setName("density");
+    grid->tree().setValue(Coord(0, 0, 0), openvdb::Vec3f(1.0F));
+    return grid;
+}
+
+void write(const std::filesystem::path& path, const openvdb::GridBase::Ptr& grid) {
+    openvdb::io::File file(path.string());
+    file.write(openvdb::GridPtrVec{grid});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::fputs("usage: make_vdb_fixtures FOLDER\n", stderr);
+        return 2;
+    }
+    openvdb::initialize();
+    const std::filesystem::path folder = argv[1];
+    write(folder / "ball.vdb", ball());
+    write(folder / "far.vdb", farAway());
+    write(folder / "one-voxel.vdb", oneVoxel());
+    write(folder / "zeros.vdb", zeros());
+    write(folder / "nan.vdb", ballWith(std::numeric_limits<float>::quiet_NaN()));
+    write(folder / "infinite.vdb", ballWith(std::numeric_limits<float>::infinity()));
+    write(folder / "negative.vdb", ballWith(-0.5F));
+    write(folder / "level-set.vdb", levelSet());
+    write(folder / "vectors.vdb", vectors());
+    return 0;
+}

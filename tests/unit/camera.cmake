@@ -1,0 +1,1 @@
+lumulus_test(camera_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/camera_test.cpp LINK lumulus_camera)

@@ -1,0 +1,146 @@
+#include "draw/camera.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace lumulus {
+namespace {
+
+using glm::dvec3;
+
+MATCHER_P2(IsNear, expected, tolerance, "") {
+    return glm::distance(arg, expected) <= tolerance;
+}
+
+scene::Camera lookingAlongMinusZ() {
+    scene::Camera camera;
+    camera.position = dvec3(1.0, 2.0, 3.0);
+    camera.target = dvec3(1.0, 2.0, -7.0);
+    camera.verticalFov = 90.0;
+    return camera;
+}
+
+TEST(Camera, PerspectiveRaysAreThoseOfAPinhole) {
+    const Camera camera = makeCamera(lookingAlongMinusZ(), {200, 100, 0.0}, {});
+    EXPECT_THAT(camera.ray(100.0, 50.0).direction, IsNear(dvec3(0, 0, -1), 1e-15));
+    EXPECT_THAT(camera.ray(100.0, 50.0).origin, IsNear(dvec3(1, 2, 3), 0.0));
+    EXPECT_THAT(camera.ray(100.0, 0.0).direction, IsNear(dvec3(0, 1, -1) / std::sqrt(2.0), 1e-15));
+    EXPECT_THAT(camera.ray(200.0, 50.0).direction, IsNear(dvec3(2, 0, -1) / std::sqrt(5.0), 1e-15));
+    EXPECT_THAT(camera.ray(0.0, 100.0).direction, IsNear(dvec3(-2, -1, -1) / std::sqrt(6.0), 1e-15));
+}
+
+TEST(Camera, OrthographicRaysAreParallelAndFrameTheTarget) {
+    scene::Camera settings = lookingAlongMinusZ();
+    settings.projection = scene::Projection::orthographic;
+    const Camera camera = makeCamera(settings, {200, 100, 0.0}, {});
+    // 90° at ten metres: twenty metres from edge to edge
+    EXPECT_NEAR(camera.orthographicHeight, 20.0, 1e-12);
+    EXPECT_THAT(camera.ray(200.0, 0.0).origin, IsNear(dvec3(21, 12, 3), 1e-12));
+    EXPECT_THAT(camera.ray(200.0, 0.0).direction, IsNear(dvec3(0, 0, -1), 1e-15));
+}
+
+TEST(Camera, PanoramaCoversTheSphere) {
+    scene::Camera settings = lookingAlongMinusZ();
+    settings.projection = scene::Projection::panorama;
+    settings.target = dvec3(1.0, 5.0, -7.0);  // above the horizon: the panorama stays level
+    const Camera camera = makeCamera(settings, {360, 180, 0.0}, {});
+    EXPECT_THAT(camera.ray(180.0, 90.0).direction, IsNear(dvec3(0, 0, -1), 1e-14));
+    EXPECT_THAT(camera.ray(270.0, 90.0).direction, IsNear(dvec3(1, 0, 0), 1e-14));
+    EXPECT_THAT(camera.ray(0.0, 90.0).direction, IsNear(dvec3(0, 0, 1), 1e-14));
+    EXPECT_THAT(camera.ray(123.0, 0.0).direction, IsNear(dvec3(0, 1, 0), 1e-14));
+    EXPECT_THAT(camera.ray(180.0, 135.0).direction, IsNear(dvec3(0, -1, -1) / std::sqrt(2.0), 1e-14));
+}
+
+TEST(Camera, LooksStraightDownWithNorthAtTheTop) {
+    scene::Camera settings = lookingAlongMinusZ();
+    settings.target = dvec3(1.0, -50.0, 3.0);
+    const Camera camera = makeCamera(settings, {100, 100, 0.0}, {});
+    EXPECT_THAT(camera.axes[1], IsNear(dvec3(0, 0, -1), 1e-15));
+    EXPECT_THAT(camera.axes[0], IsNear(dvec3(1, 0, 0), 1e-15));
+
+    settings.projection = scene::Projection::panorama;
+    const Camera panorama = makeCamera(settings, {100, 50, 0.0}, {});
+    EXPECT_THAT(panorama.ray(50.0, 25.0).direction, IsNear(dvec3(0, 0, -1), 1e-14));
+    EXPECT_THAT(panorama.ray(50.0, 50.0).direction, IsNear(dvec3(0, -1, 0), 1e-14));
+}
+
+/// Where a point falls in the picture of a perspective camera, −1…1 on both axes, by plain trigonometry.
+glm::dvec2 project(const Camera& camera, const dvec3& point, double fov) {
+    const dvec3 forward = camera.ray(0.5 * camera.width, 0.5 * camera.height).direction;
+    const dvec3 right = glm::normalize(glm::cross(forward, dvec3(0, 1, 0)));
+    const dvec3 p = point - camera.position;
+    const double tanY = std::tan(glm::radians(fov) / 2.0);
+    const double depth = glm::dot(p, forward);
+    return {glm::dot(p, right) / (depth * tanY * camera.width / camera.height),
+            glm::dot(p, glm::cross(right, forward)) / (depth * tanY)};
+}
+
+TEST(Camera, FramesACloudThatNobodyPointedAt) {
+    Bounds cloud;
+    cloud.centre = dvec3(1e7, 300.0, -2e6);
+    cloud.halfAxes = glm::dmat3(400, 0, 0, 0, 250, 0, 0, 0, 500);
+    for (const scene::Image& image : {scene::Image{1280, 720, 0.0}, scene::Image{300, 500, 0.0}}) {
+        const Camera camera = makeCamera({}, image, cloud);
+        double reach = 0.0;
+        for (const dvec3& corner : cloud.corners()) {
+            const glm::dvec2 p = glm::abs(project(camera, corner, 40.0));
+            reach = std::max({reach, p.x, p.y});
+        }
+        EXPECT_NEAR(reach, 0.9, 1e-6);
+        const dvec3 away = camera.position - cloud.centre;
+        EXPECT_NEAR(std::atan2(away.x, away.z), glm::radians(20.0), 1e-9);
+        EXPECT_NEAR(away.y / glm::length(away), -std::sin(glm::radians(5.0)), 1e-9);
+    }
+}
+
+TEST(Camera, FramesTheOutlineWhereThereIsOne) {
+    Bounds cloud;
+    cloud.halfAxes = glm::dmat3(10.0);
+    cloud.outline = {dvec3(0, 1, 0), dvec3(0, -1, 0)};
+    const Camera camera = makeCamera({}, {100, 100, 0.0}, cloud);
+    EXPECT_NEAR(std::max(project(camera, cloud.outline[0], 40.0).y, -project(camera, cloud.outline[1], 40.0).y), 0.9,
+                1e-9);
+}
+
+TEST(Camera, TurnsFromAGivenPositionToTheCloud) {
+    Bounds cloud;
+    cloud.centre = dvec3(10.0, 0.0, 0.0);
+    scene::Camera settings;
+    settings.position = dvec3(-20.0, 0.0, 0.0);
+    EXPECT_THAT(makeCamera(settings, {64, 64, 0.0}, cloud).axes[2], IsNear(dvec3(1, 0, 0), 1e-15));
+    settings.target = settings.position;
+    EXPECT_THROW(makeCamera(settings, {64, 64, 0.0}, cloud), InputError);
+}
+
+TEST(Bounds, AreThoseOfTheFilledVoxels) {
+    vdb::Volume volume;
+    volume.size = {6, 5, 4};
+    volume.density.assign(6 * 5 * 4, 0.0F);
+    volume.toWorld.linear = glm::dmat3(0, 2, 0, 3, 0, 0, 1, 0, 4);  // turned and sheared
+    volume.toWorld.translation = dvec3(100.0, 0.0, 0.0);
+    const Bounds all = boundsOf(volume);
+    EXPECT_THAT(all.centre, IsNear(volume.toWorld.point(dvec3(3, 2.5, 2)), 1e-12));
+
+    volume.density[volume.index(2, 1, 1)] = 0.5F;
+    volume.density[volume.index(3, 3, 1)] = 0.5F;
+    const Bounds some = boundsOf(volume);
+    EXPECT_THAT(some.centre, IsNear(volume.toWorld.point(dvec3(3, 2.5, 1.5)), 1e-12));
+    EXPECT_THAT(some.halfAxes[0], IsNear(dvec3(0, 2, 0), 1e-12));
+    EXPECT_THAT(some.halfAxes[1], IsNear(dvec3(4.5, 0, 0), 1e-12));
+    EXPECT_THAT(some.halfAxes[2], IsNear(dvec3(0.5, 0, 2), 1e-12));
+    EXPECT_EQ(some.outline.size(), 8U);  // both voxels lie in one bundle of rows
+    for (const dvec3& point : some.outline) {
+        const dvec3 inBox = glm::inverse(some.halfAxes) * (point - some.centre);
+        EXPECT_THAT(glm::abs(inBox), IsNear(dvec3(1.0), 1e-12));
+    }
+    double farthest = 0.0;
+    for (const dvec3& corner : some.corners()) farthest = std::max(farthest, glm::distance(corner, some.centre));
+    EXPECT_DOUBLE_EQ(some.radius(), farthest);
+}
+
+}  // namespace
+}  // namespace lumulus

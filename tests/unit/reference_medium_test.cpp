@@ -1,0 +1,150 @@
+#include "reference/medium.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reference/majorant.h"
+#include "stat/ball.h"
+
+namespace lumulus::reference {
+namespace {
+
+/// A field without symmetry, with a ring of zeros.
+vdb::Volume hillyVolume() {
+    vdb::Volume volume = boxVolume({9, 7, 13});
+    for (int z = 1; z < volume.size.z - 1; ++z) {
+        for (int y = 1; y < volume.size.y - 1; ++y) {
+            for (int x = 1; x < volume.size.x - 1; ++x) {
+                volume.density[volume.index(x, y, z)] = static_cast<float>((x * 7 + y * 13 + z * 29) % 17) / 8.0F;
+            }
+        }
+    }
+    volume.toWorld.linear = glm::dmat3(2.0, 0.1, 0.0, -0.3, 1.5, 0.2, 0.0, 0.4, 3.0);
+    volume.toWorld.translation = glm::dvec3(1e7, -20.0, 5.0);
+    return volume;
+}
+
+/// The field by the definition in vdb/volume.h, zero outside.
+double interpolate(const vdb::Volume& volume, const glm::dvec3& p) {
+    const glm::dvec3 q = p - 0.5;
+    const glm::ivec3 base(glm::floor(q));
+    double sum = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::ivec3 offset(corner & 1, corner >> 1 & 1, corner >> 2);
+        const glm::ivec3 voxel = base + offset;
+        if (glm::any(glm::lessThan(voxel, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(voxel, volume.size)))
+            continue;
+        double weight = 1.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double f = q[axis] - base[axis];
+            weight *= offset[axis] == 1 ? f : 1.0 - f;
+        }
+        sum += weight * static_cast<double>(volume.density[volume.index(voxel.x, voxel.y, voxel.z)]);
+    }
+    return sum;
+}
+
+TEST(Medium, InterpolatesAsTheVolumeIsDefined) {
+    const vdb::Volume volume = hillyVolume();
+    const Medium medium(volume, 1.0);
+    Random random(3, 0, 0);
+    for (int i = 0; i < 5000; ++i) {
+        const glm::dvec3 p = glm::dvec3(random.uniform(), random.uniform(), random.uniform()) * glm::dvec3(volume.size);
+        ASSERT_NEAR(medium.density(p), interpolate(volume, p), 1e-6);
+    }
+    EXPECT_EQ(medium.density(glm::dvec3(0.0)), 0.0);
+    EXPECT_EQ(medium.density(glm::dvec3(volume.size)), 0.0);
+    EXPECT_FLOAT_EQ(static_cast<float>(medium.density(glm::dvec3(3.5, 2.5, 4.5))),
+                    volume.density[volume.index(3, 2, 4)]);
+}
+
+TEST(Medium, TakesWorldCoordinatesToVoxels) {
+    const vdb::Volume volume = hillyVolume();
+    const Medium medium(volume, 1.0);
+    const glm::dvec3 p(3.25, 2.5, 7.75);
+    const VoxelRay ray = medium.toVoxel(Ray{volume.toWorld.point(p), glm::normalize(glm::dvec3(1.0, 2.0, -3.0))});
+    EXPECT_LT(glm::distance(ray.origin, p), 1e-8);
+    EXPECT_LT(glm::distance(volume.toWorld.vector(ray.step), glm::normalize(glm::dvec3(1.0, 2.0, -3.0))), 1e-14);
+}
+
+/// The local majorant is a bound everywhere, and within a cell some voxel comes near it.
+TEST(Majorant, BoundsTheInterpolatedField) {
+    const vdb::Volume volume = hillyVolume();
+    const Medium medium(volume, 0.3);
+    Random random(4, 0, 0);
+    for (const Majorant kind : {Majorant::local, Majorant::global}) {
+        const MajorantGrid grid(medium, kind);
+        double tightest = 0.0;
+        for (int i = 0; i < 4000; ++i) {
+            const glm::dvec3 p =
+                glm::dvec3(random.uniform(), random.uniform(), random.uniform()) * glm::dvec3(volume.size);
+            const VoxelRay ray{
+                p, medium.stepOf(glm::normalize(glm::dvec3(random.uniform() - 0.5, 0.4, random.uniform())))};
+            grid.walk(ray, *medium.clip(ray), random, [&](double t, double majorant) {
+                const double extinction = 0.3 * interpolate(volume, ray.at(t));
+                EXPECT_LE(extinction, majorant);
+                tightest = std::max(tightest, extinction / majorant);
+                return false;
+            });
+        }
+        EXPECT_GT(tightest, 0.9);
+    }
+}
+
+TEST(Majorant, WalksThroughSpikesAtCellBorders) {
+    // one voxel of 1e6 in a field of 1, next to the border between two cells of six voxels
+    for (const int at : {5, 6, 7}) {
+        vdb::Volume volume = boxVolume({12, 12, 12});
+        volume.density[volume.index(at, 6, 6)] = 1e6F;
+        const Medium medium(volume, 1e-5);
+        const MajorantGrid grid(medium, Majorant::local);
+        const VoxelRay ray{{0.0, 6.5, 6.9}, {1.0, 0.0, 0.0}};
+        Random random(1, 0, 0);
+        grid.walk(ray, *medium.clip(ray), random, [&](double t, double majorant) {
+            EXPECT_LE(1e-5 * interpolate(volume, ray.at(t)), majorant);
+            return false;
+        });
+    }
+}
+
+TEST(LineIntegrals, OfABoxAreAnalytic) {
+    // the trilinear field of a box keeps the mass of each row: n voxels are n metres
+    const vdb::Volume volume = boxVolume({10, 20, 20});
+    const Medium medium(volume, 0.2);
+    const LineIntegrals along = integrateAlong(medium, medium.toVoxel(Ray{{-5.0, 11.0, 11.0}, {1.0, 0.0, 0.0}}));
+    EXPECT_NEAR(along.transmittance, std::exp(-2.0), 1e-6);
+    const glm::dvec3 slanted = glm::normalize(glm::dvec3(-2.0, 1.0, 0.3));
+    const glm::dvec3 middle(6.0, 11.0, 11.0);
+    const LineIntegrals across = integrateAlong(medium, medium.toVoxel(Ray{middle - 15.0 * slanted, slanted}));
+    EXPECT_NEAR(across.transmittance, std::exp(-2.0 / std::abs(slanted.x)), 1e-6);
+    // mean depth of the first collision in a homogeneous layer, six metres from the origin; the ramps of the field at
+    // its faces move it by centimetres
+    const double expected = (1.0 / 0.2 - 10.0 / std::expm1(2.0)) + 6.0;
+    EXPECT_NEAR(along.distance / (1.0 - along.transmittance), expected, 0.03);
+}
+
+TEST(LineIntegrals, OfABallAreAnalytic) {
+    const double radius = 10.0, extinction = 0.1;
+    const Medium medium(ballVolume(66, radius), extinction);
+    for (const double b : {0.0, 3.3, 6.1, 8.7}) {
+        const Ray ray{{b * 0.6, b * 0.8, 40.0}, {0.0, 0.0, -1.0}};
+        const double expected = std::exp(-2.0 * extinction * std::sqrt(radius * radius - b * b));
+        EXPECT_NEAR(integrateAlong(medium, medium.toVoxel(ray)).transmittance, expected, 0.003) << "at " << b;
+    }
+    EXPECT_EQ(integrateAlong(medium, medium.toVoxel(Ray{{0.0, 10.5, 40.0}, {0.0, 0.0, -1.0}})).transmittance, 1.0);
+}
+
+TEST(LineIntegrals, DoNotDependOnTheDirection) {
+    const vdb::Volume volume = hillyVolume();
+    const Medium medium(volume, 0.05);
+    const glm::dvec3 centre = volume.toWorld.point(0.5 * glm::dvec3(volume.size));
+    const glm::dvec3 direction = glm::normalize(glm::dvec3(0.4, -0.2, 0.7));
+    const auto there = integrateAlong(medium, medium.toVoxel(Ray{centre - 200.0 * direction, direction}));
+    const auto back = integrateAlong(medium, medium.toVoxel(Ray{centre + 200.0 * direction, -direction}));
+    EXPECT_LT(there.transmittance, 0.9);
+    EXPECT_NEAR(there.transmittance, back.transmittance, 1e-7);
+}
+
+}  // namespace
+}  // namespace lumulus::reference

@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "scene/document.h"
+#include "scene/load.h"
+#include "scene/schema.h"
+#include "scene/suggest.h"
+#include "support/temporary_folder.h"
+
+// What holds for every row of the table of keys.
+namespace lumulus::scene {
+namespace {
+
+using testing::HasSubstr;
+
+/// `key = value` in its section.
+std::string documentOf(const Key& key, const std::string& value) {
+    const std::size_t dot = key.name.find('.');
+    const std::string section(key.name.substr(0, dot));
+    const std::string rest(key.name.substr(dot + 1));
+    const std::string head = section == "cloud" ? "[[cloud]]" : "[" + section + "]";
+    return fmt::format("{}\n{} = {}\n", head, rest, value);
+}
+
+std::string pathOf(const Key& key) {
+    const std::string name(key.name);
+    return name.starts_with("cloud.") ? "cloud.0." + name.substr(6) : name;
+}
+
+std::string messageOf(const std::string& toml) {
+    try {
+        parseScene(toml, "x.toml");
+    } catch (const InputError& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+class EveryKey : public testing::TestWithParam<Key> {};
+
+TEST_P(EveryKey, DocumentedDefaultIsTheDefault) {
+    const Key& key = GetParam();
+    if (key.fallback.starts_with('(')) {
+        EXPECT_TRUE(key.fallback.ends_with(')'));
+        return;
+    }
+    EXPECT_EQ(parseScene(documentOf(key, std::string(key.fallback)), "x.toml"), parseScene("", "x.toml"));
+}
+
+TEST_P(EveryKey, WrongTypeNamesKeyAndLine) {
+    const Key& key = GetParam();
+    const std::string name(key.name.substr(key.name.rfind('.') + 1));
+    const bool takesText = key.type == Type::text || key.type == Type::path || key.type == Type::choice;
+    for (const char* value : {"true", "1979-05-27", "{ a = 1 }", "[]", "[[]]", takesText ? "3" : "\"three\""}) {
+        const std::string message = messageOf(documentOf(key, value));
+        EXPECT_THAT(message, HasSubstr(name + " must be ")) << value;
+        EXPECT_THAT(message, HasSubstr("(x.toml:2, " + pathOf(key) + ")")) << value;
+    }
+}
+
+TEST_P(EveryKey, NotANumberIsRefused) {
+    const Key& key = GetParam();
+    for (const char* value : {"nan", "inf", "-inf"}) {
+        std::string text = value;
+        if (key.type == Type::vector || key.type == Type::rgb) text = fmt::format("[0.5, {}, 0.5]", value);
+        if (key.type == Type::matrix) text = fmt::format("[[1,0,0,{}],[0,1,0,0],[0,0,1,0]]", value);
+        EXPECT_THAT(messageOf(documentOf(key, text)), HasSubstr(pathOf(key))) << text;
+    }
+}
+
+TEST_P(EveryKey, OutOfRangeIsRefusedAndTheEndsFollowTheDocumentation) {
+    const Key& key = GetParam();
+    if (key.type != Type::number && key.type != Type::integer && key.type != Type::rgb) return;
+    const std::string below = key.type == Type::integer
+                                  ? fmt::format("{}", static_cast<std::int64_t>(key.range.low) - 1)
+                                  : fmt::format("{:.17g}", key.range.low - 1e-3 - 1e-9);
+    EXPECT_THAT(messageOf(documentOf(key, below)), HasSubstr(", got ")) << below;
+    const std::string above = fmt::format("{:.1f}", key.range.high * 1.001 + 1.0);
+    EXPECT_THAT(messageOf(documentOf(key, above)), HasSubstr(", got ")) << above;
+    EXPECT_EQ(messageOf(documentOf(key, fmt::format("{:.1f}", key.range.high))) == "no error", !key.range.openHigh);
+    EXPECT_EQ(messageOf(documentOf(key, fmt::format("{:.2f}", key.range.low))) == "no error", !key.range.openLow);
+}
+
+TEST_P(EveryKey, IntegersAreNumbers) {
+    const Key& key = GetParam();
+    if (key.type != Type::number && key.type != Type::rgb) return;
+    for (const int value : {0, 1, 10}) {
+        const bool valid = messageOf(documentOf(key, std::to_string(value))) == "no error";
+        EXPECT_EQ(valid, key.range.contains(value)) << value;
+    }
+}
+
+TEST_P(EveryKey, HasASetterAndWordsAboutIt) {
+    const Key& key = GetParam();
+    EXPECT_NE(key.set, nullptr);
+    EXPECT_FALSE(key.documentation.empty());
+    EXPECT_EQ(key.documentation.find('|'), std::string::npos);  // it would break the table
+    EXPECT_EQ(key.type == Type::choice, !key.choices.empty());
+    EXPECT_EQ(findKey(key.name)->set, key.set);
+}
+
+TEST_P(EveryKey, ChoicesAreExactlyThese) {
+    const Key& key = GetParam();
+    for (const std::string_view choice : key.choices) {
+        EXPECT_EQ(messageOf(documentOf(key, fmt::format("\"{}\"", choice))), "no error");
+    }
+    if (key.type != Type::choice) return;
+    EXPECT_THAT(messageOf(documentOf(key, "\"neither\"")), HasSubstr("got \"neither\""));
+}
+
+INSTANTIATE_TEST_SUITE_P(Schema, EveryKey, testing::ValuesIn(schema()), [](const auto& row) {
+    std::string name(row.param.name);
+    for (char& c : name) c = c == '.' ? '_' : c;
+    return name;
+});
+
+TEST(Schema, NamesAreUniqueAndSectionsAreTogether) {
+    std::set<std::string_view> names, sections;
+    std::string_view last;
+    for (const Key& key : schema()) {
+        EXPECT_TRUE(names.insert(key.name).second) << key.name;
+        const std::string_view section = key.name.substr(0, key.name.rfind('.'));
+        EXPECT_TRUE(section == last || sections.insert(section).second) << section;
+        last = section;
+    }
+}
+
+TEST(Schema, DefaultsOfTheStructsAreThoseOfTheFile) {
+    Scene scene;
+    scene.clouds.resize(1);
+    scene.source = "x.toml";
+    EXPECT_EQ(parseScene("", "x.toml"), scene);
+}
+
+TEST(Schema, DocumentationIsUpToDate) {
+    EXPECT_EQ(test::readAll(SOURCE_ROOT "/docs/scene-format.md"), sceneFormatMarkdown())
+        << "lumulus info --scene-format > docs/scene-format.md";
+}
+
+TEST(Schema, ScenesThatShipAreValid) {
+    int scenes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(SOURCE_ROOT "/configs/scenes")) {
+        if (entry.path().extension() != ".toml") continue;
+        ++scenes;
+        std::vector<std::string> overrides;
+        // files of data do not come with the sources
+        if (test::readAll(entry.path()).find("\nvdb") != std::string::npos) {
+            overrides.emplace_back("cloud.0.procedural=cumulus");
+        }
+        EXPECT_NO_THROW(loadScene(entry.path(), overrides)) << entry.path();
+    }
+    EXPECT_GE(scenes, 3);
+}
+
+TEST(Suggest, NearestKey) {
+    EXPECT_EQ(suggestKey("image.widht"), "did you mean \"width\"?");
+    EXPECT_EQ(suggestKey("imag"), "did you mean \"image\"?");
+    EXPECT_EQ(suggestKey("cloud.albdeo"), "did you mean \"albedo\"?");
+    EXPECT_EQ(suggestKey("cloud.g"), "did you mean cloud.phase.g?");
+    EXPECT_EQ(suggestKey("image.zzzzzz"), "the keys of image are exposure, height, width");
+    EXPECT_THAT(suggestKey("zzzzzz"), HasSubstr("the sections are camera, cloud, draw, image"));
+}
+
+TEST(Suggest, EditDistance) {
+    EXPECT_EQ(editDistance("", "abc"), 3U);
+    EXPECT_EQ(editDistance("kitten", "sitting"), 3U);
+    EXPECT_EQ(editDistance("widht", "width"), 1U);
+}
+
+}  // namespace
+}  // namespace lumulus::scene

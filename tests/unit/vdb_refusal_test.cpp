@@ -1,0 +1,166 @@
+// What the loader says to files that it cannot use. None of them may crash it.
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "unit/vdb_grids.h"
+#include "vdb/describe.h"
+
+namespace lumulus::test {
+namespace {
+
+using Refusal = GridFiles;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+
+TEST_F(Refusal, NoSuchFile) {
+    EXPECT_THAT(refusal(file("absent.vdb")), HasSubstr("no such file"));
+}
+
+TEST_F(Refusal, Folder) {
+    EXPECT_THAT(refusal(file("").parent_path()), HasSubstr("folder"));
+}
+
+TEST_F(Refusal, Device) {
+    EXPECT_THAT(refusal("/dev/null"), HasSubstr("not a regular file"));
+}
+
+TEST_F(Refusal, EmptyFile) {
+    writeAll(file(), "");
+    EXPECT_THAT(refusal(file()), HasSubstr("empty"));
+}
+
+TEST_F(Refusal, OtherFormat) {
+    writeAll(file(), "solid cube\nfacet normal 0 0 1\n");
+    EXPECT_THAT(refusal(file()), HasSubstr("not an OpenVDB file"));
+}
+
+TEST_F(Refusal, NewerFormat) {
+    std::string bytes = readAll(save({makeBlob({0, 0, 0})}));
+    bytes[9] = 1;  // the version follows the eight bytes of the magic number
+    writeAll(file(), bytes);
+    EXPECT_THAT(refusal(file()), HasSubstr("newer OpenVDB"));
+}
+
+/// The places to damage: every byte of the head and of the tail; the node masks between are all alike, each 37th does.
+std::vector<std::size_t> damagePlaces(std::size_t bytes) {
+    constexpr std::size_t closely = 500;
+    std::vector<std::size_t> places;
+    for (std::size_t at = 1; at < bytes; at += at < closely || at + closely > bytes ? 1 : 37) places.push_back(at);
+    return places;
+}
+
+TEST_F(Refusal, TruncatedAnywhere) {
+    const auto grid = makeBlob({3, 3, 3}, 1);
+    const std::string whole = readAll(save({grid}));
+    for (const std::size_t length : damagePlaces(whole.size())) {
+        writeAll(file(), whole.substr(0, length));
+        ASSERT_THAT(refusal(file()), HasSubstr("truncated")) << length << " of " << whole.size();
+    }
+    writeAll(file(), whole);
+    EXPECT_EQ(refusal(file()), "");
+}
+
+TEST_F(Refusal, DamageNeverCrashes) {
+    const std::string whole = readAll(save({makeBlob({3, 3, 3}, 1)}));
+    int refused = 0;
+    for (const std::size_t at : damagePlaces(whole.size())) {
+        std::string damaged = whole;
+        damaged[at] = static_cast<char>(damaged[at] ^ 1);
+        writeAll(file(), damaged);
+        vdb::LoadOptions options;
+        options.memoryBudgetMiB = 1.0;
+        try {
+            vdb::load(file(), options);
+        } catch (const Error&) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 50);
+}
+
+TEST_F(Refusal, GridNotInTheFile) {
+    const auto grid = makeBlob({0, 0, 0});
+    vdb::LoadOptions options;
+    options.grid = "smoke";
+    EXPECT_THAT(refusal(save({grid}), options),
+                AllOf(HasSubstr("no grid \"smoke\""), HasSubstr("\"density\" (float)")));
+}
+
+TEST_F(Refusal, OtherTypes) {
+    const auto ids = openvdb::Int32Grid::create();
+    ids->setName("ids");
+    const auto doubles = openvdb::DoubleGrid::create();
+    doubles->setName("density");
+    EXPECT_THAT(refusal(save({ids})), AllOf(HasSubstr("no float grid"), HasSubstr("\"ids\" (int32)")));
+    vdb::LoadOptions options;
+    options.grid = "density";
+    EXPECT_THAT(refusal(save({ids, doubles}), options), HasSubstr("type double"));
+}
+
+TEST_F(Refusal, LevelSet) {
+    const auto grid = makeBlob({0, 0, 0});
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    EXPECT_THAT(refusal(save({grid})), AllOf(HasSubstr("level set"), HasSubstr("fog volume")));
+}
+
+TEST_F(Refusal, FileWithoutGrids) {
+    EXPECT_THAT(refusal(save({})), HasSubstr("no grids"));
+}
+
+TEST_F(Refusal, ValuesThatAreNoDensities) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (const auto& [value, text] : {std::pair{nan, "nan"}, {infinity, "inf"}, {-0.5F, "-0.5"}}) {
+        const auto grid = makeBlob({0, 0, 0});
+        grid->tree().setValue({40, -7, 12}, value);
+        grid->tree().setValue({40, -8, 90}, value);  // smaller in lexicographic order
+        grid->tree().setValue({300, -90, 0}, value);
+        EXPECT_THAT(refusal(save({grid})), AllOf(HasSubstr(text), HasSubstr("(40, -8, 90)")));
+    }
+}
+
+TEST_F(Refusal, TilesThatAreNoDensities) {
+    const auto grid = makeBlob({0, 0, 0});
+    grid->tree().addTile(1, openvdb::Coord(16, 24, 32), -1.0F, true);
+    EXPECT_THAT(refusal(save({grid})), HasSubstr("value -1 at voxel (16, 24, 32)"));
+}
+
+TEST_F(Refusal, BackgroundThatIsNoDensity) {
+    const auto grid = makeGrid(-1.0F);
+    grid->tree().setValue({0, 0, 0}, 1.0F);
+    EXPECT_THAT(refusal(save({grid})), HasSubstr("background -1"));
+}
+
+TEST_F(Refusal, Frustum) {
+    const auto grid = makeBlob({0, 0, 0});
+    grid->setTransform(openvdb::math::Transform::createFrustumTransform(
+        openvdb::BBoxd(openvdb::Vec3d(0), openvdb::Vec3d(100)), 0.5, 10.0));
+    const auto path = save({grid});
+    EXPECT_THAT(refusal(path), HasSubstr("frustum"));
+    EXPECT_FALSE(vdb::describe(path).at(0).affine);
+}
+
+TEST_F(Refusal, TransformsWithoutVolume) {
+    const auto path = save({makeBlob({0, 0, 0})});
+    vdb::LoadOptions options;
+    options.transform[1] = {1.0, 1e-14, 0.0, 0.0};  // parallel to the first axis
+    EXPECT_THAT(refusal(path, options), HasSubstr("singular"));
+    options.transform = glm::dmat4(1e-7);  // small, but not flat
+    options.transform[3] = {0, 0, 0, 1};
+    EXPECT_EQ(refusal(path, options), "");
+    options.transform[3][3] = 2.0;
+    EXPECT_THAT(refusal(path, options), HasSubstr("not affine"));
+    options.transform = glm::dmat4(1.0);
+    options.transform[3][0] = std::numeric_limits<double>::infinity();
+    EXPECT_THAT(refusal(path, options), HasSubstr("not finite"));
+}
+
+TEST_F(Refusal, BudgetBelowOneVoxel) {
+    vdb::LoadOptions options;
+    options.memoryBudgetMiB = 1e-5;
+    EXPECT_THAT(refusal(save({makeBlob({0, 0, 0})}), options), HasSubstr("not even one voxel"));
+}
+
+}  // namespace
+}  // namespace lumulus::test

@@ -1,0 +1,98 @@
+#include "vdb/file.h"
+
+#include <openvdb/io/Stream.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "base/error.h"
+#include "vdb/header.h"
+
+namespace lumulus::vdb {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& what, const std::string& mend) {
+    throw InputError(what, path.string(), mend);
+}
+
+/// Messages of OpenVDB and of the C++ library on one line.
+std::string oneLine(const std::exception& error) {
+    std::string text = error.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+/// Sorts out what is no OpenVDB file at all, before OpenVDB sees it.
+void checkStart(const fs::path& path) {
+    constexpr std::array<char, 8> magic{' ', 'B', 'D', 'V', 0, 0, 0, 0};
+    std::error_code ec;
+    const fs::file_status status = fs::status(path, ec);
+    if (status.type() == fs::file_type::not_found) refuse(path, "there is no such file", "check the path of the cloud");
+    if (ec) refuse(path, "the file cannot be reached: " + ec.message(), "check its permissions");
+    if (fs::is_directory(status)) refuse(path, "this is a folder, not a file", "give the path of a .vdb file");
+    if (!fs::is_regular_file(status)) refuse(path, "this is not a regular file", "give the path of a .vdb file");
+    const std::uintmax_t bytes = fs::file_size(path, ec);
+    if (ec) refuse(path, "the file cannot be reached: " + ec.message(), "check its permissions");
+    if (bytes == 0) refuse(path, "the file is empty", "write it again");
+
+    std::ifstream in(path, std::ios::binary);
+    if (!in) refuse(path, std::string("the file cannot be opened: ") + std::strerror(errno), "check its permissions");
+    std::array<char, magic.size()> start{};
+    in.read(start.data(), start.size());
+    if (!std::equal(start.begin(), start.begin() + in.gcount(), magic.begin())) {
+        refuse(path, "this is not an OpenVDB file", "give the path of a .vdb file");
+    }
+    std::uint32_t version = 0;
+    in.read(reinterpret_cast<char*>(&version), sizeof(version));
+    if (in && version > openvdb::OPENVDB_FILE_VERSION) {
+        refuse(path, "the file is of a newer OpenVDB (format " + std::to_string(version) + ")",
+               "save it as format " + std::to_string(openvdb::OPENVDB_FILE_VERSION) + " or older");
+    }
+    if (!headerLengthsFit(path)) {
+        refuse(path, "the file is truncated or damaged: its header leads past its end", "copy or write it again");
+    }
+}
+
+}  // namespace
+
+openvdb::GridPtrVec readGrids(const fs::path& path) {
+    openvdb::initialize();
+    checkStart(path);
+    std::ifstream in(path, std::ios::binary);
+    // io::File reads truncated files without a word; a stream that throws does not. The flags say why it threw.
+    bool ended = false;
+    try {
+        in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
+        constexpr bool delayed = false;
+        openvdb::io::Stream stream(in, delayed);
+        const openvdb::GridPtrVecPtr grids = stream.getGrids();
+        if (!grids || grids->empty()) refuse(path, "the file holds no grids", "write it with a float grid \"density\"");
+        return *grids;
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        ended = in.eof();
+        if (!ended)
+            refuse(path, "the file asks for more memory than there is", "it is damaged, or too large for this machine");
+    } catch (const std::exception& error) {
+        ended = in.eof();
+        if (!ended) refuse(path, "the file is damaged or of an unknown kind: " + oneLine(error), "write it again");
+    } catch (...) {
+        refuse(path, "the file is damaged", "write it again");
+    }
+    refuse(path, "the file is truncated: it ends in the middle of a grid", "copy or write it again");
+}
+
+std::string valueType(const openvdb::GridBase& grid) {
+    const std::string type = grid.valueType();
+    return type == "float" && grid.saveFloatAsHalf() ? "half" : type;
+}
+
+}  // namespace lumulus::vdb

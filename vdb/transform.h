@@ -1,0 +1,15 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+
+#include "vdb/volume.h"
+
+namespace lumulus::vdb {
+
+/// `outer` applied after `inner`. Throws InputError, with `where` as its place, unless `outer` is affine, all is finite
+/// and the result has a volume: |det| above 1e-12 of the product of its columns' lengths, which no choice of units
+/// changes.
+Affine composeTransforms(const glm::dmat4& outer, const Affine& inner, const std::string& where);
+
+}  // namespace lumulus::vdb
