@@ -9,6 +9,8 @@
 #include "cloud/cloud.h"
 #include "draw/billboards.h"
 #include "draw/camera.h"
+#include "draw/light_field.h"
+#include "draw/march.h"
 #include "draw/sky.h"
 #include "draw/sun_depth.h"
 #include "draw/view.h"
@@ -63,8 +65,10 @@ struct Renderer::State {
     std::optional<cloud::Cloud> cloud;
     std::optional<photon::PhotonMap> photons;
     std::optional<draw::SunDepth> sunDepth;
-    std::optional<draw::PhaseBuffers> phase;
+    std::optional<draw::PhaseTables> phase;
+    std::optional<draw::LightField> lightField;
     std::optional<draw::Billboards> billboards;
+    std::optional<draw::March> march;
 
     bool sunDrawn = false;  // the sun's depths are up to date
     Statistics statistics;
@@ -77,8 +81,11 @@ struct Renderer::State {
     void prepareCloud(const vdb::Volume& volume);
     void preparePhotons();
     void drawCloud(LayeredImage& image);
-    void drawBand(LayeredImage& image, gpu::Buffer& params, gpu::Buffer& pixels, const gpu::Buffer& none, int firstRow,
-                  int rows);
+    void prepareDrawing();
+    shared::FieldParams fieldParams() const;
+    void recordLight();
+    void drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params, int firstRow, int rows);
+    glm::dvec3 toVoxel(const glm::dvec3& world) const;
     glm::vec3 eyeVoxel() const;
 };
 
@@ -136,11 +143,7 @@ Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
     if (s.medium.extinction > 0.0) {
         s.prepareCloud(loaded.volume);
         s.preparePhotons();
-        const draw::DrawFeatures features{!s.medium.tables.oneTurnH.empty(), s.scatters() && s.hasSun(),
-                                          s.photons.has_value()};
-        if (features.sun) s.sunDepth.emplace(s.context, *s.cloud);
-        s.phase.emplace(s.context, s.medium.tables);
-        s.billboards.emplace(s.context, *s.cloud, features);
+        s.prepareDrawing();
     }
     s.statistics.prepareSeconds = secondsSince(start);
 }
@@ -158,53 +161,101 @@ void Renderer::traceGeneration() {
     s.statistics.traceSeconds += secondsSince(start);
 }
 
+void Renderer::State::prepareDrawing() {
+    const draw::DrawFeatures features{!medium.tables.oneTurnH.empty(), scatters() && hasSun(), photons.has_value()};
+    if (features.sun) sunDepth.emplace(context, *cloud);
+    if (features.photons) lightField.emplace(context, *cloud);
+    phase.emplace(context, medium.tables);
+    if (scene.draw.mode == scene::DrawMode::billboards)
+        billboards.emplace(context, *cloud, features);
+    else
+        march.emplace(context, *cloud, features);
+}
+
+glm::dvec3 Renderer::State::toVoxel(const glm::dvec3& world) const {
+    return glm::inverse(cloud->toWorld.linear) * (world - cloud->toWorld.translation);
+}
+
 glm::vec3 Renderer::State::eyeVoxel() const {
     // An orthographic eye is far away: all collectors see it in one direction.
     glm::dvec3 eye = camera.position;
-    if (camera.projection == scene::Projection::orthographic) {
-        const glm::dvec3 edges = cloud->toWorld.linear * glm::dvec3(cloud->size);
-        eye -= camera.axes[2] * (1e5 * glm::length(edges));
-    }
-    return glm::vec3(glm::inverse(cloud->toWorld.linear) * (eye - cloud->toWorld.translation));
+    if (camera.projection == scene::Projection::orthographic)
+        eye -= camera.axes[2] * (1e5 * glm::length(cloud->toWorld.linear * glm::dvec3(cloud->size)));
+    return glm::vec3(toVoxel(eye));
 }
 
-void Renderer::State::drawBand(LayeredImage& image, gpu::Buffer& params, gpu::Buffer& pixels, const gpu::Buffer& none,
-                               int firstRow, int rows) {
+shared::FieldParams Renderer::State::fieldParams() const {
+    shared::FieldParams field{};
+    field.worldToVoxel = glm::mat3(glm::inverse(cloud->toWorld.linear));
+    field.eyeVoxel = glm::vec3(toVoxel(camera.position));
+    field.size = glm::vec3(cloud->size);
+    field.cells = cloud->cells.cells;
+    field.cellSize = cloud->cells.cellSize;
+    field.extinction = static_cast<float>(medium.extinction);
+    field.voxelLength = static_cast<float>(std::cbrt(cloud->voxelVolume));
+    if (lightField) field.radianceScale = lightField->scale();
+    if (sunDepth) {
+        field.voxelToSun = sunDepth->voxelToTexture();
+        field.sunOffset = sunDepth->textureOffset();
+    }
+    return field;
+}
+
+/// Light in the cloud as this view sees it; the sun's depths only once.
+void Renderer::State::recordLight() {
+    if (sunDepth && !sunDrawn) {
+        sunDepth->record(commands, -scene.sun.directionTo, medium.extinction);
+        sunDrawn = true;
+    }
+    if (photons) {
+        photons->reconstruct(commands, eyeVoxel());
+        commands.barrier("collector radiance");
+        lightField->record(commands, photons->radiance());
+    }
+}
+
+void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params, int firstRow,
+                               int rows) {
     shared::DrawParams values{};
     values.view = draw::viewParams(camera);
     values.light = draw::lightParams(scene.sun, scene.sky, medium.albedo, medium.tables);
+    values.field = fieldParams();
     values.firstRow = firstRow;
     values.rows = rows;
-    values.tilesAcross = billboards->tilesAcross();
+    values.tilesAcross = billboards ? billboards->tilesAcross() : 0;
     params.mapped<shared::DrawParams>()[0] = values;
     commands.begin();
-    if (firstRow == 0) {
-        if (sunDepth && !sunDrawn) {
-            sunDepth->record(commands, -scene.sun.directionTo, medium.extinction);
-            sunDrawn = true;
-        }
-        if (photons) photons->reconstruct(commands, eyeVoxel());
-        commands.barrier("collector light");
-    }
-    billboards->record(commands, params, values, photons ? photons->radiance() : none,
-                       sunDepth ? sunDepth->collectorDepths() : none, *phase, pixels);
+    if (billboards)
+        billboards->record(commands, inputs, values);
+    else
+        march->record(commands, inputs, values);
     commands.submit();
     commands.wait();
     for (const gpu::PassTime& pass : commands.times()) addTime(statistics.passes, pass);
-    draw::copyPixels(pixels.mapped<const shared::Pixel>(), image, firstRow, rows);
+    draw::copyPixels(inputs.pixels.mapped<const shared::Pixel>(), image, firstRow, rows);
 }
 
 void Renderer::State::drawCloud(LayeredImage& image) {
-    billboards->prepare(camera, medium.extinction);
+    if (billboards) billboards->prepare(camera, medium.extinction);
+    if (sunDepth || photons) {
+        commands.begin();
+        recordLight();
+        commands.submit();
+        commands.wait();
+        for (const gpu::PassTime& pass : commands.times()) addTime(statistics.passes, pass);
+    }
     const int band = bandRows(camera);
     gpu::Buffer params(context, "draw params", sizeof(shared::DrawParams), gpu::Memory::host);
-    gpu::Buffer pixels(
+    const gpu::Buffer pixels(
         context, "pixels",
         static_cast<std::uint64_t>(band) * static_cast<std::uint64_t>(camera.width) * sizeof(shared::Pixel),
         gpu::Memory::host);
-    const gpu::Buffer none(context, "none", 0, gpu::Memory::device);
+    // Stands for fields that the scene does not have: the shaders never read it, but every binding must be there.
+    const gpu::Image none(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT);
+    const draw::FrameInputs inputs{params, *phase, lightField ? lightField->image() : none,
+                                   sunDepth ? sunDepth->image() : none, pixels};
     for (int row = 0; row < camera.height; row += band)
-        drawBand(image, params, pixels, none, row, std::min(band, camera.height - row));
+        drawBand(image, inputs, params, row, std::min(band, camera.height - row));
     statistics.gpuBytes = context.allocatedBytes();
 }
 
@@ -215,7 +266,7 @@ LayeredImage Renderer::draw() {
     s.statistics.passes.clear();
     if (s.photons)
         for (const gpu::PassTime& pass : s.photons->times()) addTime(s.statistics.passes, pass);
-    if (s.billboards) s.drawCloud(image);
+    if (s.billboards || s.march) s.drawCloud(image);
     s.statistics.drawSeconds += secondsSince(start);
     return image;
 }

@@ -2,9 +2,16 @@
 
 #include <cstdint>
 #include <fstream>
+#include <map>
+#include <string>
 
 namespace lumulus::vdb {
 namespace {
+
+/// Types of metadata whose values have a fixed size.
+const std::map<std::string, std::uint32_t> kNumberBytes{
+    {"bool", 1},   {"int32", 4},  {"int64", 8},  {"float", 4},  {"double", 8}, {"vec2i", 8},  {"vec2s", 8},
+    {"vec2d", 16}, {"vec3i", 12}, {"vec3s", 12}, {"vec3d", 24}, {"mat4s", 64}, {"mat4d", 128}};
 
 /// Walks over a file and notes whether that would have led past its end.
 class Walk {
@@ -32,14 +39,30 @@ class Walk {
 
     void bytes(std::int64_t count) { moveTo(position_ + count); }
 
-    /// A 32-bit length and as many bytes.
-    void sized() { bytes(number<std::uint32_t>()); }
+    /// A 32-bit length and as many bytes. Returns them where they are few, as the names of types are.
+    std::string sized() {
+        constexpr std::uint32_t longest = 16;
+        const auto length = number<std::uint32_t>();
+        const std::int64_t start = position_;
+        bytes(length);
+        std::string text;
+        if (within_ && length <= longest) {
+            text.resize(length);
+            in_.seekg(start);
+            in_.read(text.data(), length);
+        }
+        return text;
+    }
 
-    /// Name, type and value of each entry.
+    /// Name, type and value of each entry. OpenVDB reads numbers by their own size and not by the one in the file.
     void metadata() {
         const auto entries = number<std::int32_t>();
         for (std::int32_t i = 0; i < entries && within_; ++i) {
-            for (int part = 0; part < 3; ++part) sized();
+            sized();
+            const auto known = kNumberBytes.find(sized());
+            const auto length = number<std::uint32_t>();
+            within_ = within_ && (known == kNumberBytes.end() || known->second == length);
+            bytes(length);
         }
     }
 

@@ -16,38 +16,52 @@ constexpr double kTolerance = 1e-3;
 constexpr std::size_t kGrain = std::size_t{1} << 16;
 
 std::uint8_t toByte(float value) {
-    return static_cast<std::uint8_t>(std::nearbyint(value * 255.0F));
+    return static_cast<std::uint8_t>(value * 255.0F + 0.5F);
+}
+double fromByte(std::uint8_t texel) {
+    return texel / 255.0;
 }
 
 std::uint16_t toHalf(float value) {
     return imath_float_to_half(value);
 }
+double fromHalf(std::uint16_t texel) {
+    return static_cast<double>(imath_half_to_float(texel));
+}
 
-/// Σ v and Σ|q − v| of each format, v = density / maximum.
-struct Errors {
-    double sum = 0.0, byte = 0.0, half = 0.0, single = 0.0;
+float toFloat(float value) {
+    return value;
+}
+double fromFloat(float texel) {
+    return static_cast<double>(texel);
+}
 
-    Errors operator+(const Errors& o) const { return {sum + o.sum, byte + o.byte, half + o.half, single + o.single}; }
+struct Sums {
+    double values = 0.0;  ///< Σ v, v = density / maximum
+    double errors = 0.0;  ///< Σ|q − v|
 };
 
-/// The order of the sum is fixed, so that the choice of the format does not depend on threads.
-Errors measure(const Volume& volume) {
+/// Σ|q − v| / Σ v. The order of the sums is fixed, so that the choice of the format does not depend on threads.
+template <typename To, typename From>
+double measureError(const Volume& volume, const To& to, const From& from) {
     using Range = tbb::blocked_range<std::size_t>;
-    return tbb::parallel_deterministic_reduce(
-        Range(0, volume.density.size(), kGrain), Errors{},
-        [&](const Range& range, Errors part) {
+    const double scale = 1.0 / static_cast<double>(volume.maximum);
+    const Sums sums = tbb::parallel_deterministic_reduce(
+        Range(0, volume.density.size(), kGrain), Sums{},
+        [&](const Range& range, Sums part) {
             for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                if (volume.density[i] == 0.0F) continue;
-                const double exact = static_cast<double>(volume.density[i]) / volume.maximum;
-                const float value = volume.density[i] / volume.maximum;
-                part.sum += exact;
-                part.byte += std::abs(toByte(value) / 255.0 - exact);
-                part.half += std::abs(static_cast<double>(imath_half_to_float(toHalf(value))) - exact);
-                part.single += std::abs(static_cast<double>(value) - exact);
+                const float density = volume.density[i];
+                if (density == 0.0F) continue;
+                const double exact = static_cast<double>(density) * scale;
+                part.values += exact;
+                part.errors += std::abs(from(to(density / volume.maximum)) - exact);
             }
             return part;
         },
-        [](const Errors& a, const Errors& b) { return a + b; });
+        [](const Sums& a, const Sums& b) {
+            return Sums{a.values + b.values, a.errors + b.errors};
+        });
+    return sums.errors / sums.values;
 }
 
 template <typename Texel, typename Convert>
@@ -72,14 +86,13 @@ std::size_t texelBytes(DensityFormat format) {
 
 QuantisedVolume quantise(const Volume& volume) {
     if (volume.empty()) return {DensityFormat::r8, store<std::uint8_t>(volume, toByte), 0.0};
-    const Errors errors = measure(volume);
-    if (errors.byte <= kTolerance * errors.sum) {
-        return {DensityFormat::r8, store<std::uint8_t>(volume, toByte), errors.byte / errors.sum};
+    if (const double error = measureError(volume, toByte, fromByte); error <= kTolerance) {
+        return {DensityFormat::r8, store<std::uint8_t>(volume, toByte), error};
     }
-    if (errors.half <= kTolerance * errors.sum) {
-        return {DensityFormat::r16f, store<std::uint16_t>(volume, toHalf), errors.half / errors.sum};
+    if (const double error = measureError(volume, toHalf, fromHalf); error <= kTolerance) {
+        return {DensityFormat::r16f, store<std::uint16_t>(volume, toHalf), error};
     }
-    return {DensityFormat::r32f, store<float>(volume, [](float v) { return v; }), errors.single / errors.sum};
+    return {DensityFormat::r32f, store<float>(volume, toFloat), measureError(volume, toFloat, fromFloat)};
 }
 
 }  // namespace lumulus::vdb

@@ -1,5 +1,6 @@
 // The sun's light with one turn, per unit of σs and irradiance (one_turn.h has the formula). The includer declares the
-// buffers PhaseTable, OneTurnH and OneTurnK, and the constant ONE_TURN: whether the forward peak is cut.
+// buffer PhaseTable, the tables oneTurnH and oneTurnK as pictures (optical depth across, angle down) and the constant
+// ONE_TURN: whether the forward peak is cut.
 #ifndef LUMULUS_LIB_SUN_SOURCE
 #define LUMULUS_LIB_SUN_SOURCE
 
@@ -8,34 +9,28 @@
 
 /// What of the sun's light depends on the view direction alone.
 struct SunView {
-    float phase;     // p(θ)
-    TableCell angle; // in the one-turn tables
+    float phase;  // p(θ)
+    float angle;  // texture coordinate in the one-turn tables
 };
+
+/// Texture coordinate of an axis in [0,1] whose ends are the middles of the first and the last texel.
+float texelMiddle(float axis, int size) { return (axis * float(size - 1) + 0.5) / float(size); }
 
 SunView sunView(LightParams light, vec3 viewDirection) {
     const ScatterAngle angle = angleBetween(light.sunTravel, -viewDirection);
     const float axis = angleToAxis(angle, light.angleScale);
     const TableCell cell = tableCell(axis, phaseTableSize);
     return SunView(exp(mix(phaseTable[cell.base], phaseTable[cell.base + 1], cell.fraction)),
-                   tableCell(axis, oneTurnAngleCount));
+                   texelMiddle(axis, oneTurnAngleCount));
 }
-
-#define ONE_TURN_ENTRY(table, index) vec3(table[index], table[(index) + 1], table[(index) + 2])
-#define ONE_TURN_ROW(table, cell, tau)                                                                                 \
-    mix(ONE_TURN_ENTRY(table, oneTurnIndex(cell, tau.base)), ONE_TURN_ENTRY(table, oneTurnIndex(cell, tau.base + 1)), \
-        tau.fraction)
 
 /// H(τs,θ) and K(τ,θ) without their decay e^−κτ.
 vec3 oneTurnBefore(SunView sun, LightParams light, float tau) {
-    const TableCell cell = tableCell(tauToAxis(tau, light.tauMaximum), oneTurnTauCount);
-    return mix(ONE_TURN_ROW(oneTurnH, sun.angle.base, cell), ONE_TURN_ROW(oneTurnH, sun.angle.base + 1, cell),
-               sun.angle.fraction);
+    return textureLod(oneTurnH, vec2(texelMiddle(tauToAxis(tau, light.tauMaximum), oneTurnTauCount), sun.angle), 0.0).rgb;
 }
 
 vec3 oneTurnAfter(SunView sun, LightParams light, float tau) {
-    const TableCell cell = tableCell(tauToAxis(tau, light.tauMaximum), oneTurnTauCount);
-    return mix(ONE_TURN_ROW(oneTurnK, sun.angle.base, cell), ONE_TURN_ROW(oneTurnK, sun.angle.base + 1, cell),
-               sun.angle.fraction);
+    return textureLod(oneTurnK, vec2(texelMiddle(tauToAxis(tau, light.tauMaximum), oneTurnTauCount), sun.angle), 0.0).rgb;
 }
 
 /// Radiance that a stretch of optical thickness `thickness`, seen through `tauView` and lit through `tauSun`, sends to

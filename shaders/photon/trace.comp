@@ -19,7 +19,7 @@ layout(constant_id = 2) const bool ABSORBS = false;     // an albedo below 1
 
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform usampler3D collectorIndex;
-layout(binding = 2, scalar) readonly buffer Params { TraceParams params; };
+layout(binding = 2, scalar) readonly buffer Params { TraceParams storedParams; };
 layout(binding = 3, scalar) readonly buffer Majorants { float majorants[]; };  // normalised
 layout(binding = 4, scalar) readonly buffer InverseCdf { float inverseCdf[]; };
 layout(binding = 5, scalar) buffer States { TraceState states[]; };
@@ -27,6 +27,9 @@ layout(binding = 6, scalar) writeonly buffer Records { PhotonRecord records[]; }
 layout(binding = 7, scalar) buffer RecordCounts { uint recordCounts[]; };        // of each invocation
 layout(binding = 8, scalar) buffer CollectorCounts { uint collectorCounts[]; };  // of each collector
 layout(binding = 9, scalar) buffer Counters { TraceCounters counters; };
+
+// Held in registers: a load from a buffer costs a loop over the lanes on lavapipe, in every step.
+TraceParams params;
 
 vec4 draw(inout TraceState state) {
     return rngUniform4(uvec4(state.photon, state.draws++, params.generation, params.stream));
@@ -99,6 +102,7 @@ bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint c
 }
 
 void main() {
+    params = storedParams;
     const uint lane = gl_GlobalInvocationID.x;
     if (lane >= params.invocations) return;
     TraceState state = states[lane];

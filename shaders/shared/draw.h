@@ -37,9 +37,24 @@ struct LightParams {
     float tauMaximum;
 };
 
+/// Where the cloud and the light in it lie; `voxel` are voxel coordinates.
+struct FieldParams {
+    mat3 worldToVoxel;      // of directions: voxels per metre
+    vec3 eyeVoxel;          // the camera's position
+    vec3 size;              // of the density volume, voxels
+    ivec3 cells;            // of the majorant grid
+    vec3 cellSize;          // voxels
+    float extinction;       // σt at density 1 [1/m]
+    float voxelLength;      // metres: the finest step of a march
+    vec3 radianceScale;     // voxel → texture coordinates of the in-scattered radiance
+    mat3 voxelToSun;        // voxel → texture coordinates of the optical depth to the sun
+    vec3 sunOffset;
+};
+
 struct DrawParams {
     ViewParams view;
     LightParams light;
+    FieldParams field;
     int firstRow;  // of the band that this dispatch draws
     int rows;
     int tilesAcross;
@@ -72,11 +87,11 @@ struct SunDepthPush {
     float step;  // optical depth of one texel's length at density 1
 };
 
-struct CollectorSunPush {
-    mat3 voxelToGrid;  // per voxel, in texture coordinates 0…1
-    vec3 offset;
-    vec3 inverseSize;
-    uint collectors;
+/// The grid on which collectors' radiance is smoothed.
+struct LightFieldPush {
+    ivec3 size;  // voxels
+    ivec3 grid;  // cells
+    int edge;    // of a cell, voxels
 };
 
 SHARED_END

@@ -43,8 +43,10 @@ struct Cloud {
     vdb::DensityFormat format = vdb::DensityFormat::r16f;
     gpu::Image density;         ///< normalised: 1 is the field's maximum
     gpu::Image collectorIndex;  ///< number of the collector of each voxel; the format's largest value: none
-    MajorantGrid majorants;
+    MajorantGrid majorants;     ///< that photons walk through: a single one or one a cell
     gpu::Buffer majorantBuffer;
+    MajorantGrid cells;  ///< one a cell always: where a march finds empty space
+    gpu::Buffer cellBuffer;
     std::vector<Sample> samples;
     KdTree tree;
     std::vector<Collector> collectors;

@@ -25,7 +25,7 @@ using gpu::Sampler;
 
 /// A global majorant wins where fewer null collisions than this fall on a real one: a cell step costs about as much as
 /// a collision (docs/numbers.md).
-constexpr double globalMajorantLimit = 6.0;
+constexpr double globalMajorantLimit = 4.0;
 /// Edge of a majorant cell, in blocks.
 constexpr int majorantCell = 2;
 
@@ -201,6 +201,12 @@ gpu::Image indexCollectors(gpu::Context& context, const glm::ivec3& size, const 
     return index;
 }
 
+gpu::Buffer majorantBuffer(gpu::Context& context, const MajorantGrid& grid) {
+    gpu::Buffer buffer(context, "majorants", grid.maxima.size() * sizeof(float), Memory::device);
+    gpu::upload(context, buffer, grid.maxima);
+    return buffer;
+}
+
 KdTree makeTree(const std::vector<Sample>& samples, const vdb::Volume& volume, const Blocks& blocks,
                 const PrepareOptions& options, double voxelVolume) {
     const BlockDensity blockDensity(volume.density, volume.size, volume.maximum);
@@ -243,16 +249,26 @@ Cloud prepare(gpu::Context& context, const vdb::Volume& volume, const PrepareOpt
 
     double mass = 0.0;
     for (const Collector& collector : collectors) mass += static_cast<double>(collector.mass);
-    MajorantGrid grid = majorantGrid(blocks.majorants, blocks.count, volume.size, 0, mass);
-    if (options.majorant == scene::Majorant::local ||
-        (options.majorant == scene::Majorant::automatic && grid.nullCollisions >= globalMajorantLimit))
-        grid = majorantGrid(blocks.majorants, blocks.count, volume.size, majorantCell, mass);
-    gpu::Buffer majorantBuffer(context, "majorants", grid.maxima.size() * sizeof(float), Memory::device);
-    gpu::upload(context, majorantBuffer, grid.maxima);
+    const MajorantGrid cells = majorantGrid(blocks.majorants, blocks.count, volume.size, majorantCell, mass);
+    const MajorantGrid single = majorantGrid(blocks.majorants, blocks.count, volume.size, 0, mass);
+    const bool local = options.majorant == scene::Majorant::local ||
+                       (options.majorant == scene::Majorant::automatic && single.nullCollisions >= globalMajorantLimit);
+    const MajorantGrid& grid = local ? cells : single;
     times.leaves = watch.lap();
-    return Cloud{volume.size,        volume.toWorld,   voxelVolume,           quantised.format,
-                 std::move(density), std::move(index), std::move(grid),       std::move(majorantBuffer),
-                 std::move(samples), std::move(tree),  std::move(collectors), times};
+    return Cloud{volume.size,
+                 volume.toWorld,
+                 voxelVolume,
+                 quantised.format,
+                 std::move(density),
+                 std::move(index),
+                 grid,
+                 majorantBuffer(context, grid),
+                 cells,
+                 majorantBuffer(context, cells),
+                 std::move(samples),
+                 std::move(tree),
+                 std::move(collectors),
+                 times};
 }
 
 }  // namespace lumulus::cloud

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "gpu/transfer.h"
-
 namespace lumulus::draw {
 
 namespace {
@@ -16,13 +14,6 @@ namespace spirv {
 
 /// Radius of a billboard against that of the sphere with its leaf's volume: neighbours overlap and no holes show.
 constexpr double overlap = 1.3;
-
-template <class Values>
-gpu::Buffer filledBuffer(gpu::Context& context, const char* name, const Values& values) {
-    gpu::Buffer buffer(context, name, values.size() * sizeof(values[0]), gpu::Memory::device);
-    if (!values.empty()) gpu::upload(context, buffer, values);
-    return buffer;
-}
 
 }  // namespace
 
@@ -56,17 +47,10 @@ std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, double 
     return billboards;
 }
 
-PhaseBuffers::PhaseBuffers(gpu::Context& context, const phase::ScatteringTables& tables)
-    : phase(filledBuffer(context, "phase table", tables.phaseTable)),
-      before(filledBuffer(context, "one turn H", tables.oneTurnH)),
-      after(filledBuffer(context, "one turn K", tables.oneTurnK)) {}
-
 Billboards::Billboards(gpu::Context& context, const cloud::Cloud& cloud, const DrawFeatures& features)
     : context_(context),
       cloud_(cloud),
-      program_(context, "billboards", spirv::billboards_comp,
-               {gpu::SpecConstant::of(0, features.oneTurn), gpu::SpecConstant::of(1, features.sun),
-                gpu::SpecConstant::of(2, features.photons)}),
+      program_(context, "billboards", spirv::billboards_comp, features.constants()),
       billboards_(context, "billboards", 0, gpu::Memory::device),
       offsets_(context, "tile offsets", 0, gpu::Memory::device),
       lists_(context, "tile lists", 0, gpu::Memory::device) {}
@@ -79,24 +63,13 @@ void Billboards::prepare(const Camera& camera, double extinction) {
     lists_ = filledBuffer(context_, "tile lists", tiles_.lists);
 }
 
-void Billboards::record(gpu::Commands& commands, const gpu::Buffer& params, const shared::DrawParams& values,
-                        const gpu::Buffer& radiance, const gpu::Buffer& sunDepths, const PhaseBuffers& phase,
-                        const gpu::Buffer& pixels) const {
+void Billboards::record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawParams& values) const {
+    std::vector<gpu::Binding> bindings = inputs.bindings();
+    bindings.emplace_back("Billboards", billboards_);
+    bindings.emplace_back("TileOffsets", offsets_);
+    bindings.emplace_back("TileLists", lists_);
     commands.pass("billboards");
-    commands.dispatch(program_,
-                      {{"Params", params},
-                       {"Billboards", billboards_},
-                       {"TileOffsets", offsets_},
-                       {"TileLists", lists_},
-                       {"Radiance", radiance},
-                       {"SunDepths", sunDepths},
-                       {"PhaseTable", phase.phase},
-                       {"OneTurnH", phase.before},
-                       {"OneTurnK", phase.after},
-                       {"Pixels", pixels}},
-                      {},
-                      {(static_cast<std::uint32_t>(values.view.size.x) + 15) / 16,
-                       (static_cast<std::uint32_t>(values.rows) + 3) / 4, 1});
+    commands.dispatch(program_, bindings, {}, bandGroups(values));
 }
 
 }  // namespace lumulus::draw

@@ -5,9 +5,9 @@
 
 #include "cloud/cloud.h"
 #include "draw/camera.h"
+#include "draw/frame.h"
 #include "draw/tiles.h"
 #include "gpu/commands.h"
-#include "phase/scattering_tables.h"
 #include "shared/draw.h"
 
 namespace lumulus::draw {
@@ -15,19 +15,6 @@ namespace lumulus::draw {
 /// One billboard a collector, relative to the eye, nearest first (ties by index). `extinction` is σt at density 1
 /// [1/m].
 std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, double extinction, const Camera& camera);
-
-/// Phase function of the drawing passes on the GPU.
-struct PhaseBuffers {
-    PhaseBuffers(gpu::Context& context, const phase::ScatteringTables& tables);
-    gpu::Buffer phase, before, after;
-};
-
-/// What there is to draw: nothing is compiled or bound for the rest.
-struct DrawFeatures {
-    bool oneTurn = false;  ///< the forward peak is cut
-    bool sun = false;
-    bool photons = false;
-};
 
 /// Draws a cloud as billboards into bands of pixels.
 class Billboards {
@@ -37,11 +24,8 @@ class Billboards {
     /// Sorts and bins for this view, and uploads. Before any commands of the frame are recorded.
     void prepare(const Camera& camera, double extinction);
 
-    /// Records one band of rows into `pixels`; params.firstRow is a multiple of TILE_EDGE. `params` holds one
-    /// DrawParams.
-    void record(gpu::Commands& commands, const gpu::Buffer& params, const shared::DrawParams& values,
-                const gpu::Buffer& radiance, const gpu::Buffer& sunDepths, const PhaseBuffers& phase,
-                const gpu::Buffer& pixels) const;
+    /// Records one band of rows; values.firstRow is a multiple of TILE_EDGE.
+    void record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawParams& values) const;
 
     int tilesAcross() const { return tiles_.across; }
 

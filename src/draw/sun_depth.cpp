@@ -3,29 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
-
-#include "gpu/groups.h"
-#include "gpu/transfer.h"
-#include "shared/cloud.h"
 
 namespace lumulus::draw {
 
 namespace {
 
 namespace spirv {
-#include "spirv/draw/collector_sun.comp.h"
 #include "spirv/draw/sun_depth.comp.h"
 }  // namespace spirv
 
 /// 64 MiB of half floats.
 constexpr double maxTexels = 32.0 * 1024 * 1024;
-
-std::vector<shared::LeafBox> boxesOf(const cloud::Cloud& cloud) {
-    std::vector<shared::LeafBox> boxes;
-    for (const cloud::Collector& collector : cloud.collectors) boxes.push_back(collector.box);
-    return boxes;
-}
 
 /// Columns: two unit vectors across the light and the light itself.
 glm::dmat3 lightFrame(const glm::dvec3& travel) {
@@ -60,14 +48,7 @@ SunGrid makeSunGrid(const cloud::Cloud& cloud, const glm::dvec3& sunTravel, doub
 }
 
 SunDepth::SunDepth(gpu::Context& context, const cloud::Cloud& cloud)
-    : context_(context),
-      cloud_(cloud),
-      gridProgram_(context, "sun_depth", spirv::sun_depth_comp),
-      collectorProgram_(context, "collector_sun", spirv::collector_sun_comp),
-      boxes_(context, "collector boxes", cloud.collectors.size() * sizeof(shared::LeafBox), gpu::Memory::device),
-      depths_(context, "collector sun depths", cloud.collectors.size() * sizeof(float), gpu::Memory::device) {
-    gpu::upload(context, boxes_, boxesOf(cloud));
-}
+    : context_(context), cloud_(cloud), program_(context, "sun_depth", spirv::sun_depth_comp) {}
 
 void SunDepth::record(gpu::Commands& commands, const glm::dvec3& sunTravel, double extinction) {
     const SunGrid grid = makeSunGrid(cloud_, sunTravel, maxTexels);
@@ -76,24 +57,15 @@ void SunDepth::record(gpu::Commands& commands, const glm::dvec3& sunTravel, doub
     const glm::vec3 inverseSize = 1.0F / glm::vec3(cloud_.size);
     commands.pass("sun depth");
     commands.dispatch(
-        gridProgram_, {{"density", cloud_.density, gpu::Sampler::linear}, {"sunDepth", *image_}},
+        program_, {{"density", cloud_.density, gpu::Sampler::linear}, {"sunDepth", *image_}},
         shared::SunDepthPush{glm::mat3(grid.gridToVoxel), glm::vec3(grid.originVoxel), inverseSize, grid.size,
                              static_cast<float>(extinction * grid.spacing)},
         {(static_cast<std::uint32_t>(grid.size.x) + 7) / 8, (static_cast<std::uint32_t>(grid.size.y) + 7) / 8, 1});
-    commands.barrier("sun depth");
     const glm::dmat3 toTexel = glm::inverse(grid.gridToVoxel);
     const glm::dmat3 scale(glm::dvec3(1.0 / grid.size.x, 0, 0), glm::dvec3(0, 1.0 / grid.size.y, 0),
                            glm::dvec3(0, 0, 1.0 / grid.size.z));
     voxelToTexture_ = glm::mat3(scale * toTexel);
     textureOffset_ = glm::vec3(scale * (glm::dvec3(0.5) - toTexel * grid.originVoxel));
-    const auto collectors = static_cast<std::uint32_t>(cloud_.collectors.size());
-    commands.dispatch(collectorProgram_,
-                      {{"density", cloud_.density, gpu::Sampler::linear},
-                       {"sunDepth", *image_, gpu::Sampler::linearClamp},
-                       {"Boxes", boxes_},
-                       {"SunDepths", depths_}},
-                      shared::CollectorSunPush{voxelToTexture_, textureOffset_, inverseSize, collectors},
-                      gpu::linearGroups(collectors, 64));
 }
 
 }  // namespace lumulus::draw

@@ -20,18 +20,17 @@ struct SunGrid {
 /// A grid that covers the cloud's box, as fine as its voxels where that stays within `maxTexels`.
 SunGrid makeSunGrid(const cloud::Cloud& cloud, const glm::dvec3& sunTravel, double maxTexels);
 
-/// Optical depth towards the sun through the whole cloud, and its mean for every collector. Made anew for each
-/// direction of the sun; not at all for a scene without one.
+/// Optical depth towards the sun through the whole cloud. Made anew for each direction of the sun; not at all for a
+/// scene without one.
 class SunDepth {
   public:
     SunDepth(gpu::Context& context, const cloud::Cloud& cloud);
 
-    /// Records what fills the grid and the collectors' depths. `extinction` is σt at density 1 [1/m].
+    /// Records what fills the grid. `extinction` is σt at density 1 [1/m].
     void record(gpu::Commands& commands, const glm::dvec3& sunTravel, double extinction);
 
-    /// One float a collector. Valid after record(); zeros before.
-    const gpu::Buffer& collectorDepths() const { return depths_; }
-    const gpu::Image& grid() const { return *image_; }
+    /// Valid after record().
+    const gpu::Image& image() const { return *image_; }
     /// Voxel coordinates → texture coordinates of the grid.
     glm::mat3 voxelToTexture() const { return voxelToTexture_; }
     glm::vec3 textureOffset() const { return textureOffset_; }
@@ -39,10 +38,7 @@ class SunDepth {
   private:
     gpu::Context& context_;
     const cloud::Cloud& cloud_;
-    gpu::Program<shared::SunDepthPush> gridProgram_;
-    gpu::Program<shared::CollectorSunPush> collectorProgram_;
-    gpu::Buffer boxes_;
-    gpu::Buffer depths_;
+    gpu::Program<shared::SunDepthPush> program_;
     std::optional<gpu::Image> image_;
     glm::mat3 voxelToTexture_{1.0F};
     glm::vec3 textureOffset_{0.0F};

@@ -39,18 +39,18 @@ inline glm::dvec3 skyDirection(double azimuth, double elevation) {
     return {std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a)};
 }
 
-inline constexpr double defaultAzimuth = 120.0, defaultElevation = 40.0;  ///< of the sun, degrees
+inline constexpr double defaultAzimuth = 70.0, defaultElevation = 35.0;  ///< of the sun, degrees
 
 struct Sun {
     glm::dvec3 directionTo = skyDirection(defaultAzimuth, defaultElevation);  ///< unit vector towards the sun
-    glm::dvec3 irradiance{3.0, 2.85, 2.6};                                    ///< on a plane that faces the sun, RGB
+    glm::dvec3 irradiance{5.0, 4.8, 4.4};                                     ///< on a plane that faces the sun, RGB
     double angularDiameter = 0.53;                                            ///< degrees
 
     bool operator==(const Sun&) const = default;
 };
 
 struct Sky {
-    glm::dvec3 radiance{0.25, 0.4, 0.7};  ///< constant over the sphere, RGB
+    glm::dvec3 radiance{0.12, 0.22, 0.42};  ///< constant over the sphere, RGB
 
     bool operator==(const Sky&) const = default;
 };
@@ -69,11 +69,11 @@ struct Cloud {
     std::filesystem::path vdb;  ///< empty: procedural
     std::string grid;           ///< empty: the first float grid, "density" preferred
     std::string procedural = "cumulus";
-    int resolution = 128;  ///< voxels along the longest side of a procedural cloud
+    int resolution = 192;  ///< voxels along the longest side of a procedural cloud
     std::uint64_t seed = 1;
     glm::dmat4 transform{1.0};  ///< applied after the grid's own transform
     double densityScale = 1.0;
-    double extinction = 0.05;  ///< σt = extinction · density_scale · value [1/m]
+    double extinction = 0.08;  ///< σt = extinction · density_scale · value [1/m]
     glm::dvec3 albedo{1.0};
     Phase phase;
 
@@ -97,7 +97,7 @@ struct PhotonMap {
     int generations = 20;
     std::int64_t firstGeneration = 0;
     int bands = 5;
-    double forwardCut = 0.0;  ///< degrees; 0 = off
+    double forwardCut = 12.0;  ///< degrees; 0 = off
     Majorant majorant = Majorant::automatic;
     std::uint64_t seed = 1;
 
@@ -107,7 +107,7 @@ struct PhotonMap {
 enum class DrawMode { march, billboards };
 
 struct Draw {
-    DrawMode mode = DrawMode::billboards;
+    DrawMode mode = DrawMode::march;
 
     bool operator==(const Draw&) const = default;
 };

@@ -4,7 +4,9 @@ target_compile_definitions(lumulus_test_rico PRIVATE LUMULUS_SOURCE_DIR="${CMAKE
 target_link_libraries(lumulus_test_rico PUBLIC lumulus_vdb PRIVATE lumulus_options)
 
 lumulus_test(vdb_load_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_load_test.cpp LINK lumulus_test_rico OpenVDB::openvdb)
-lumulus_test(vdb_refusal_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_refusal_test.cpp LINK lumulus_vdb OpenVDB::openvdb)
+lumulus_test(vdb_refusal_test
+             SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_refusal_test.cpp ${CMAKE_CURRENT_LIST_DIR}/vdb_throwing_new.cpp
+             LINK lumulus_vdb OpenVDB::openvdb)
 lumulus_test(vdb_write_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_write_test.cpp LINK lumulus_vdb)
 lumulus_test(vdb_quantise_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_quantise_test.cpp LINK lumulus_vdb)
 lumulus_test(vdb_procedural_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_procedural_test.cpp LINK lumulus_vdb)

@@ -147,6 +147,25 @@ TEST_F(Load, ChoosesTheGrid) {
     EXPECT_EQ(vdb::load(save({density, heat}), options).volume.maximum, 5.0F);
 }
 
+TEST_F(Load, MetadataOfAllTypes) {
+    const auto grid = makeBlob({0, 0, 0});
+    grid->insertMeta("a", openvdb::BoolMetadata(true));
+    grid->insertMeta("b", openvdb::DoubleMetadata(0.5));
+    grid->insertMeta("c", openvdb::FloatMetadata(0.5F));
+    grid->insertMeta("d", openvdb::Int32Metadata(7));
+    grid->insertMeta("e", openvdb::Int64Metadata(7));
+    grid->insertMeta("f", openvdb::Vec2DMetadata({1, 2}));
+    grid->insertMeta("g", openvdb::Vec2IMetadata({1, 2}));
+    grid->insertMeta("h", openvdb::Vec2SMetadata({1, 2}));
+    grid->insertMeta("i", openvdb::Vec3DMetadata({1, 2, 3}));
+    grid->insertMeta("j", openvdb::Vec3IMetadata({1, 2, 3}));
+    grid->insertMeta("k", openvdb::Vec3SMetadata({1, 2, 3}));
+    grid->insertMeta("l", openvdb::Mat4SMetadata(openvdb::Mat4s::identity()));
+    grid->insertMeta("m", openvdb::Mat4DMetadata(openvdb::Mat4d::identity()));
+    grid->insertMeta("n", openvdb::StringMetadata("text"));
+    EXPECT_EQ(loadGrid(grid).volume.size, glm::ivec3(9));
+}
+
 TEST_F(Load, HalfGrids) {
     const auto grid = makeBlob({0, 0, 0});
     grid->setSaveFloatAsHalf(true);

@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Mass-weighted radiance of the collectors in each cell of a coarse grid: (Σ ρ L, Σ ρ) over the cell's voxels.
+#include "shared/draw.h"
+#include "lib/linear.glsl"
+
+layout(local_size_x = 64) in;
+layout(binding = 0) uniform sampler3D density;
+layout(binding = 1) uniform usampler3D collectorIndex;
+layout(binding = 2, scalar) readonly buffer Radiance { vec3 collectorRadiance[]; };
+layout(binding = 3, scalar) writeonly buffer Cells { vec4 cells[]; };
+layout(push_constant, scalar) uniform Push { LightFieldPush push; };
+
+void main() {
+    const uint index = linearInvocation(64u);
+    const uvec3 grid = uvec3(push.grid);
+    if (index >= grid.x * grid.y * grid.z) return;
+    const ivec3 lower = push.edge * ivec3(index % grid.x, (index / grid.x) % grid.y, index / (grid.x * grid.y));
+    const ivec3 upper = min(lower + push.edge, push.size);
+    vec4 sum = vec4(0.0);
+    for (int z = lower.z; z < upper.z; ++z)
+        for (int y = lower.y; y < upper.y; ++y)
+            for (int x = lower.x; x < upper.x; ++x) {
+                const float mass = texelFetch(density, ivec3(x, y, z), 0).r;
+                if (mass > 0.0) {
+                    const uint collector = texelFetch(collectorIndex, ivec3(x, y, z), 0).r;
+                    sum += mass * vec4(collectorRadiance[collector], 1.0);
+                }
+            }
+    cells[index] = sum;
+}

@@ -1,0 +1,68 @@
+// Light of one view ray, put together from stretches of the cloud, nearest first. The includer declares lightField,
+// sunDepth, PhaseTable, OneTurnH, OneTurnK, `params` and the constants ONE_TURN, SUN and PHOTONS.
+#ifndef LUMULUS_LIB_STRETCH
+#define LUMULUS_LIB_STRETCH
+
+#include "lib/sun_source.glsl"
+
+/// Optical depth of the turned light beyond which a pixel is opaque.
+const float OPAQUE = 12.0;
+
+struct RayLight {
+    vec3 cloud;
+    float depth;     // true optical depth so far
+    float distance;  // sum of weight · distance
+    float weight;
+    float front;
+};
+
+RayLight emptyRay() { return RayLight(vec3(0.0), 0.0, 0.0, 0.0, FAR_DEPTH); }
+
+/// True optical depth at which nothing behind can be seen.
+float opaqueDepth() {
+    const vec3 decay = params.light.decay;
+    return OPAQUE / max(min(decay.x, min(decay.y, decay.z)), 0.01);
+}
+
+/// In-scattered radiance per σs' (smooth between collectors); noise below zero is cut off last.
+vec3 inScattered(vec3 voxel) {
+    const vec4 light = textureLod(lightField, voxel * params.field.radianceScale, 0.0);
+    return light.a > 0.0 ? max(light.rgb / light.a, 0.0) : vec3(0.0);
+}
+
+float sunDepthAt(vec3 voxel) {
+    return textureLod(sunDepth, params.field.voxelToSun * voxel + params.field.sunOffset, 0.0).r;
+}
+
+/// Adds a stretch of optical thickness `thickness` between the distances near and far, lit as at `voxel`.
+void addStretch(inout RayLight ray, SunView sun, float near, float far, float thickness, vec3 voxel) {
+    if (PHOTONS) {
+        // multiply scattered light: (1 − f) σs L against the turned medium's own extinction κ σt
+        const vec3 turned = params.light.decay * thickness;
+        const vec3 filled = mix((1.0 - exp(-turned)) / max(params.light.decay, 1.0e-6), vec3(thickness),
+                                lessThan(turned, vec3(1.0e-3)));
+        ray.cloud += params.light.albedo * params.light.turnShare * inScattered(voxel) * filled *
+                     exp(-params.light.decay * ray.depth);
+    }
+    if (SUN) ray.cloud += sunScattered(sun, params.light, sunDepthAt(voxel), ray.depth, thickness);
+    const float weight = exp(-ray.depth) * (1.0 - exp(-thickness));
+    ray.distance += weight * 0.5 * (near + far);
+    ray.weight += weight;
+    ray.front = min(ray.front, near);
+    ray.depth += thickness;
+}
+
+Pixel finishedPixel(RayLight ray, vec3 direction) {
+    const float transmittance = exp(-ray.depth);
+    const vec3 turned = exp(-params.light.decay * ray.depth);
+    Pixel pixel;
+    pixel.cloud = ray.cloud;
+    pixel.radiance = ray.cloud + background(params.light, direction, transmittance, turned);
+    pixel.transmittance = vec3(transmittance);
+    pixel.alpha = 1.0 - (turned.x + turned.y + turned.z) / 3.0;
+    pixel.depth = ray.weight > 0.0 ? ray.distance / ray.weight : FAR_DEPTH;
+    pixel.front = ray.front;
+    return pixel;
+}
+
+#endif

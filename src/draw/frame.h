@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+#include "gpu/commands.h"
+#include "gpu/transfer.h"
+#include "phase/scattering_tables.h"
+#include "shared/draw.h"
+
+namespace lumulus::draw {
+
+/// What there is to draw: nothing is compiled or bound for the rest.
+struct DrawFeatures {
+    bool oneTurn = false;  ///< the forward peak is cut
+    bool sun = false;
+    bool photons = false;
+
+    std::vector<gpu::SpecConstant> constants() const {
+        return {gpu::SpecConstant::of(0, oneTurn), gpu::SpecConstant::of(1, sun), gpu::SpecConstant::of(2, photons)};
+    }
+};
+
+/// Phase function of the drawing passes on the GPU.
+struct PhaseTables {
+    PhaseTables(gpu::Context& context, const phase::ScatteringTables& tables);
+    gpu::Buffer phase;
+    gpu::Image before, after;  ///< one-turn tables H and K; a single texel where the peak is not cut
+};
+
+/// A device buffer with these contents.
+template <class Values>
+gpu::Buffer filledBuffer(gpu::Context& context, const char* name, const Values& values) {
+    gpu::Buffer buffer(context, name, values.size() * sizeof(values[0]), gpu::Memory::device);
+    if (!values.empty()) gpu::upload(context, buffer, values);
+    return buffer;
+}
+
+/// What every drawing pass reads and writes. `params` holds one shared::DrawParams.
+struct FrameInputs {
+    const gpu::Buffer& params;
+    const PhaseTables& phase;
+    const gpu::Image& lightField;
+    const gpu::Image& sunDepth;
+    const gpu::Buffer& pixels;
+
+    std::vector<gpu::Binding> bindings() const {
+        return {{"Params", params},
+                {"PhaseTable", phase.phase},
+                {"oneTurnH", phase.before, gpu::Sampler::linearClamp},
+                {"oneTurnK", phase.after, gpu::Sampler::linearClamp},
+                {"lightField", lightField, gpu::Sampler::linearClamp},
+                {"sunDepth", sunDepth, gpu::Sampler::linearClamp},
+                {"Pixels", pixels}};
+    }
+};
+
+/// Workgroups of a drawing pass over a band of rows.
+inline glm::uvec3 bandGroups(const shared::DrawParams& values) {
+    return {(static_cast<std::uint32_t>(values.view.size.x) + 15) / 16,
+            (static_cast<std::uint32_t>(values.rows) + 3) / 4, 1};
+}
+
+}  // namespace lumulus::draw

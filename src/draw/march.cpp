@@ -1,0 +1,24 @@
+#include "draw/march.h"
+
+namespace lumulus::draw {
+
+namespace {
+
+namespace spirv {
+#include "spirv/draw/march.comp.h"
+}  // namespace spirv
+
+}  // namespace
+
+March::March(gpu::Context& context, const cloud::Cloud& cloud, const DrawFeatures& features)
+    : cloud_(cloud), program_(context, "march", spirv::march_comp, features.constants()) {}
+
+void March::record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawParams& values) const {
+    std::vector<gpu::Binding> bindings = inputs.bindings();
+    bindings.emplace_back("density", cloud_.density, gpu::Sampler::linear);
+    bindings.emplace_back("Majorants", cloud_.cellBuffer);
+    commands.pass("march");
+    commands.dispatch(program_, bindings, {}, bandGroups(values));
+}
+
+}  // namespace lumulus::draw

@@ -1,0 +1,103 @@
+// The ring of generations: exact sums, and the same bits for the same seed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "photon/photon_map.h"
+#include "support/cloud_cases.h"
+#include "support/photon_setup.h"
+#include "support/vulkan_fixture.h"
+
+namespace lumulus::photon {
+namespace {
+
+using glm::dvec3;
+
+class PhotonRing : public test::VulkanTest {
+  protected:
+    static constexpr int bands = 3;
+    static constexpr int slots = 4;
+    cloud::Cloud cloud = cloud::prepare(context, ballVolume(18, 20.0), test::prepareOptions(400));
+    Medium medium = test::mediumOf({.extinction = 0.1, .albedo = {1.0, 0.9, 0.7}, .bands = bands});
+
+    Options options(std::uint64_t seed = 1) const { return test::mapOptions(3000, slots, bands, seed); }
+
+    /// Lights that repeat with the ring; powers range over a factor of 1e6, and one generation is dark.
+    static scene::Sun sunAt(int generation) {
+        const double power[slots] = {2.0, 300.0, 0.0, 3e-4};
+        return test::sunFrom({0.3 * generation, 1.0, 0.2}, power[generation % slots] * dvec3(1.0, 0.8, 0.1), 0.53);
+    }
+    static scene::Sky skyAt(int generation) {
+        const double radiance[slots] = {0.1, 0.0, 0.0, 0.7e-4};
+        return test::skyOf(radiance[generation % slots] * dvec3(0.2, 0.5, 1.0));
+    }
+    static void run(PhotonMap& map, int first, int last) {
+        for (int generation = first; generation < last; ++generation)
+            map.trace(sunAt(generation % slots), skyAt(generation % slots));
+    }
+    static std::vector<std::int64_t> sumOfSlots(const PhotonMap& map) {
+        std::vector<std::int64_t> sum = map.downloadSlot(0);
+        for (int slot = 1; slot < slots; ++slot) {
+            const std::vector<std::int64_t> values = map.downloadSlot(slot);
+            for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += values[i];
+        }
+        return sum;
+    }
+};
+
+TEST_F(PhotonRing, RunningSumIsTheSumOfTheSlots) {
+    PhotonMap map(context, cloud, medium, options());
+    for (int round = 0; round < 3; ++round) {
+        run(map, round * slots, (round + 1) * slots);
+        ASSERT_EQ(map.downloadSum(), sumOfSlots(map)) << "after " << (round + 1) * slots << " generations";
+    }
+    EXPECT_EQ(map.generationsInRing(), slots);
+    EXPECT_EQ(map.counters().saturated, 0U);
+    EXPECT_THAT(map.downloadSum(), testing::Contains(testing::Ne(0)));
+    EXPECT_THAT(map.downloadSlot(2), testing::Each(0)) << "the dark generation";
+}
+
+/// Nothing is left of the generations that went: a map that begins with the last p holds the same.
+TEST_F(PhotonRing, ReplacedGenerationsLeaveNoResidue) {
+    PhotonMap map(context, cloud, medium, options());
+    run(map, 0, 3 * slots);
+    Options late = options();
+    late.firstGeneration = 2 * slots;
+    PhotonMap fresh(context, cloud, medium, late);
+    run(fresh, 2 * slots, 3 * slots);
+    EXPECT_EQ(fresh.unit(), map.unit());
+    EXPECT_EQ(fresh.downloadSum(), map.downloadSum());
+}
+
+/// A picture that stops at p generations keeps no slots; its sum is the same.
+TEST_F(PhotonRing, SumWithoutSlotsIsTheSame) {
+    PhotonMap map(context, cloud, medium, options());
+    Options withoutSlots = options();
+    withoutSlots.keepRing = false;
+    PhotonMap lean(context, cloud, medium, withoutSlots);
+    run(map, 0, slots);
+    run(lean, 0, slots);
+    EXPECT_EQ(lean.downloadSum(), map.downloadSum());
+}
+
+TEST_F(PhotonRing, SameSeedSameBits) {
+    std::vector<std::vector<std::int64_t>> sums;
+    for (const std::uint64_t seed : {std::uint64_t{1}, std::uint64_t{1}, std::uint64_t{2}, std::uint64_t{1} << 40U}) {
+        PhotonMap map(context, cloud, medium, options(seed));
+        run(map, 0, slots);
+        sums.push_back(map.downloadSum());
+    }
+    EXPECT_EQ(sums[0], sums[1]);
+    EXPECT_NE(sums[0], sums[2]);
+    EXPECT_NE(sums[0], sums[3]) << "the high half of the seed counts";
+}
+
+TEST_F(PhotonRing, GenerationsDiffer) {
+    PhotonMap map(context, cloud, medium, options());
+    map.trace(sunAt(0), skyAt(0));
+    map.trace(sunAt(0), skyAt(0));
+    EXPECT_NE(map.downloadSlot(0), map.downloadSlot(1));
+    EXPECT_EQ(map.generationsInRing(), 2);
+}
+
+}  // namespace
+}  // namespace lumulus::photon
