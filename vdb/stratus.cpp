@@ -38,7 +38,8 @@ class Stratus {
         constexpr float ceiling = kHeight - 45.0F;  // an inversion, which caps the deck softly
         const float thickness = wanted > 0.0F ? ceiling * (1.0F - std::exp(-wanted / ceiling)) : wanted;
         const float base = 16.0F + 14.0F * fractalNoise(bent / 180.0F, waves_ + 24U, 3);
-        return {base, base + thickness * smoothRamp(0.0F, 120.0F, inset)};
+        // well below the base at the rim, so that turbulence finds nothing to tear off there
+        return {base, base + glm::mix(-90.0F, thickness, smoothRamp(0.0F, 120.0F, inset))};
     }
 
     float density(const glm::vec3& p, const Column& column, float voxelHeight) const {

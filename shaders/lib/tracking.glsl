@@ -15,8 +15,9 @@ struct Walk {
     float depth;    // optical depth left
 };
 
-/// Goes on to the next collision or cell face; `majorant` is that of the walk's cell [1/m].
-uint walkStep(inout Walk walk, float majorant, ivec3 cells) {
+/// Goes on to the next collision or cell face; `majorant` is that of the walk's cell [1/m]. A periodic grid goes on for
+/// ever in x and z.
+uint walkStep(inout Walk walk, float majorant, ivec3 cells, bool periodic) {
     const vec3 face = vec3(greaterThan(walk.velocity, vec3(0.0)));
     const bvec3 moves = notEqual(walk.velocity, vec3(0.0));
     const vec3 distances = mix(vec3(3.4e38), (face - walk.offset) / walk.velocity, moves);
@@ -32,6 +33,7 @@ uint walkStep(inout Walk walk, float majorant, ivec3 cells) {
     const int direction = walk.velocity[axis] > 0.0 ? 1 : -1;
     walk.cell[axis] += direction;
     walk.offset[axis] = direction > 0 ? 0.0 : 1.0;
+    if (periodic && axis != 1) walk.cell[axis] = (walk.cell[axis] + cells[axis]) % cells[axis];
     return walk.cell[axis] < 0 || walk.cell[axis] >= cells[axis] ? WALK_LEFT : WALK_CROSSED;
 }
 

@@ -16,6 +16,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool ANALYTIC_PHASE = true;
 layout(constant_id = 1) const bool TURNS_ONLY = false;  // the forward peak is cut: some collisions go straight on
 layout(constant_id = 2) const bool ABSORBS = false;     // an albedo below 1
+layout(constant_id = 3) const bool PERIODIC = false;    // a plane-parallel layer across y
 
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform usampler3D collectorIndex;
@@ -108,6 +109,7 @@ void main() {
     TraceState state = states[lane];
     Walk walk = beginWalk(state);
     uint count = 0u, events = 0u, nulls = 0u, absorbed = 0u, escaped = 0u, lost = 0u;
+    uvec3 sides = uvec3(0u);  // reflected, transmitted diffusely, directly
 
     for (uint step = 0u; step < params.stepLimit && count < params.recordCapacity; ++step) {
         if (state.alive == 0u) {
@@ -117,9 +119,13 @@ void main() {
         }
         const float majorant =
             majorants[(walk.cell.z * params.cells.y + walk.cell.y) * params.cells.x + walk.cell.x];
-        const uint event = walkStep(walk, majorant * params.extinction, params.cells);
+        const uint event = walkStep(walk, majorant * params.extinction, params.cells, PERIODIC);
         bool ended = event == WALK_LEFT;
-        if (ended) ++escaped;
+        if (ended) {
+            ++escaped;
+            const bool up = walk.cell.y >= params.cells.y;
+            if (PERIODIC) ++sides[up ? 0 : (state.collisions > 0u ? 1 : 2)];
+        }
         if (event == WALK_COLLISION) {
             const vec3 voxel = (vec3(walk.cell) + walk.offset) * params.cellSize;
             const vec4 u = draw(state);
@@ -154,5 +160,10 @@ void main() {
     atomicAdd(counters.escaped, uint64_t(escaped));
     atomicAdd(counters.lost, uint64_t(lost));
     atomicAdd(counters.records, uint64_t(count));
+    if (PERIODIC) {
+        atomicAdd(counters.reflected, uint64_t(sides.x));
+        atomicAdd(counters.transmittedDiffuse, uint64_t(sides.y));
+        atomicAdd(counters.transmittedDirect, uint64_t(sides.z));
+    }
     if (state.alive != 0u || state.photon < params.photons) atomicAdd(counters.pending, 1u);
 }

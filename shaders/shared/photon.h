@@ -71,6 +71,10 @@ struct TraceCounters {
     uint64_t escaped;
     uint64_t lost;
     uint64_t records;
+    // of a laterally periodic layer only: escaped by where and how
+    uint64_t reflected;
+    uint64_t transmittedDiffuse;
+    uint64_t transmittedDirect;
     uint pending;  // invocations that have not finished
     uint unused;
 };

@@ -15,6 +15,7 @@
 #include "cli/output.h"
 #include "cli/reference.h"
 #include "cli/render.h"
+#include "cli/slab.h"
 
 namespace lumulus::cli {
 namespace {
@@ -112,6 +113,20 @@ void addCompare(CLI::App& app, CompareOptions& options, Action& action) {
     command->callback([&options, &action] { action = [&options] { runCompare(options); }; });
 }
 
+void addSlab(CLI::App& app, SlabOptions& options, Action& action) {
+    CLI::App* command = app.add_subcommand("slab", "Trace a plane-parallel layer: reflected, transmitted, absorbed");
+    command->add_option("--tau", options.slab.tau, "Optical thickness")->required();
+    command->add_option("--g", options.slab.phase.g, "Asymmetry of Henyey-Greenstein, -1 < g < 1")->required();
+    command->add_option("--albedo", options.slab.albedo, "Single-scattering albedo")->required();
+    command->add_option("--mu0", options.slab.mu0, "Cosine of the angle of incidence")->required();
+    command->add_option("--photons", options.slab.photons, "Photons to trace")->capture_default_str();
+    command->add_option("--seed", options.slab.seed, "Seed of the random numbers")->check(seedRange());
+    command->add_option("--device", options.device, "Vulkan device: index or part of its name");
+    command->add_flag("--json", options.json, "As JSON");
+    command->footer("Example:\n  lumulus slab --tau 2 --g 0.75 --albedo 0.9 --mu0 1 --json");
+    command->callback([&options, &action] { action = [&options] { runSlab(options); }; });
+}
+
 /// Parses and runs. CLI11's own errors become bad usage; asking for help or the version does not fail.
 void parseAndRun(int argc, const char* const* argv) {
     CLI::App app("Lumulus renders clouds.", "lumulus");
@@ -124,11 +139,13 @@ void parseAndRun(int argc, const char* const* argv) {
     InfoOptions info;
     ReferenceOptions reference;
     CompareOptions compare;
+    SlabOptions slab;
     addRender(app, render, action);
     addCloud(app, cloud, action);
     addInfo(app, info, action);
     addReference(app, reference, action);
     addCompare(app, compare, action);
+    addSlab(app, slab, action);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success&) {

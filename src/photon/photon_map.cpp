@@ -9,6 +9,7 @@
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
 #include "photon/emission.h"
+#include "photon/trace_program.h"
 #include "shared/photon.h"
 #include "shared/rng.h"
 
@@ -22,7 +23,6 @@ namespace spirv {
 #include "spirv/photon/reconstruct.comp.h"
 #include "spirv/photon/scan.comp.h"
 #include "spirv/photon/scatter.comp.h"
-#include "spirv/photon/trace.comp.h"
 }  // namespace spirv
 
 using gpu::Buffer;
@@ -54,12 +54,6 @@ double maxChannel(const glm::dvec3& v) {
 std::uint32_t invocationsFor(const gpu::Context& context, std::uint64_t photons) {
     const std::uint64_t most = context.isCpu() ? cpuInvocations : gpuInvocations;
     return static_cast<std::uint32_t>(std::min(most, (photons + 63) / 64 * 64));
-}
-
-std::vector<SpecConstant> traceConstants(const Medium& medium) {
-    const bool absorbs = std::min(medium.albedo.x, std::min(medium.albedo.y, medium.albedo.z)) < 1.0;
-    return {SpecConstant::of(0, medium.tables.analyticHg), SpecConstant::of(1, medium.tables.forwardFraction > 0.0F),
-            SpecConstant::of(2, absorbs)};
 }
 
 }  // namespace
@@ -100,7 +94,6 @@ struct PhotonMap::State {
     void traceRound();
     void accumulate(int unitExponent);
     void addTimes();
-    void resetStates();
 };
 
 PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Cloud& preparedCloud, const Medium& theMedium,
@@ -113,7 +106,7 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Cloud& preparedCl
       coefficients(collectors * 3U * static_cast<std::uint32_t>(options.bands * options.bands)),
       invocations(invocationsFor(context, options.photonsPerGeneration)),
       recordCapacity(roundRecords / invocations),
-      traceProgram(context, "trace", spirv::trace_comp, traceConstants(medium)),
+      traceProgram(context, "trace", traceSpirv(), traceConstants(medium.tables, medium.albedo, false)),
       scanProgram(context, "scan", spirv::scan_comp),
       scatterProgram(context, "scatter", spirv::scatter_comp),
       gatherProgram(context, "gather", spirv::gather_comp, {SpecConstant::of(0, options.bands)}),
@@ -186,14 +179,6 @@ shared::TraceParams PhotonMap::State::traceParams(const Emission& emission, cons
     p.stepLimit = stepLimit;
     p.collisionLimit = collisionLimit;
     return p;
-}
-
-void PhotonMap::State::resetStates() {
-    auto all = states.mapped<shared::TraceState>();
-    for (std::uint32_t i = 0; i < invocations; ++i) {
-        all[i] = shared::TraceState{};
-        all[i].photon = i;
-    }
 }
 
 void PhotonMap::State::traceRound() {
@@ -304,7 +289,7 @@ void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
             s.hasUnit = true;
         }
         s.params.mapped<shared::TraceParams>()[0] = s.traceParams(emission, sun, unitExponent);
-        s.resetStates();
+        resetStates(s.states.mapped<shared::TraceState>().subspan(0, s.invocations));
         do {
             s.traceRound();
             const shared::TraceCounters& c = s.counterBuffer.mapped<shared::TraceCounters>()[0];

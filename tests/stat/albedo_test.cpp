@@ -1,0 +1,105 @@
+// Absorption: Russian roulette over RGB weights loses nothing on the average.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "photon/photon_map.h"
+#include "support/cloud_cases.h"
+#include "support/photon_setup.h"
+#include "support/statistics.h"
+#include "support/vulkan_fixture.h"
+
+namespace lumulus::photon {
+namespace {
+
+using glm::dvec3;
+using test::RunningMean;
+
+/// Power that meets turns in the whole cloud, by channel and generation: Σ c_00·√4π, 1 − albedo of which is absorbed.
+struct Turned {
+    RunningMean channel[3];
+    Counters counters;
+};
+
+class Absorption : public test::VulkanTest {
+  protected:
+    static constexpr int generations = 20;
+    cloud::Cloud cloud = cloud::prepare(context, ballVolume(18, 20.0), test::prepareOptions(300));
+
+    Turned turned(const dvec3& albedo, double cut, const scene::Sun& sun, const scene::Sky& sky, std::uint64_t seed) {
+        const Medium medium = test::mediumOf({.extinction = 0.15, .albedo = albedo, .cut = cut});
+        PhotonMap map(context, cloud, medium, test::mapOptions(5000, generations, 1, seed));
+        Turned result;
+        for (int i = 0; i < generations; ++i) map.trace(sun, sky);
+        for (int i = 0; i < generations; ++i) {
+            const auto slot = map.downloadSlot(i);
+            for (int channel = 0; channel < 3; ++channel) {
+                double sum = 0.0;
+                for (std::size_t c = 0; c < cloud.collectors.size(); ++c)
+                    sum += test::coefficient(slot, c, channel, 0, 1);
+                result.channel[channel].add(sum * map.unit() * std::sqrt(4.0 * std::numbers::pi));
+            }
+        }
+        result.counters = map.counters();
+        return result;
+    }
+};
+
+void expectEqualMeans(const RunningMean& a, const RunningMean& b) {
+    const double error = std::hypot(a.standardError(), b.standardError());
+    EXPECT_GT(a.mean(), 20.0 * error);  // the comparison says something
+    // 4.5 errors of a difference of means of 20: as unlikely as 4 of a normal one
+    EXPECT_LT(std::abs(a.mean() - b.mean()), 4.5 * error) << a.mean() << " and " << b.mean();
+}
+
+/// Each channel of a coloured cloud absorbs what a grey cloud of its albedo does; the grey one of albedo 1 has no
+/// roulette, that of albedo 0 only first collisions.
+TEST_F(Absorption, ColouredCloudIsThreeGreyOnes) {
+    const dvec3 albedo(1.0, 0.6, 0.0);
+    const scene::Sky sky = test::skyOf(dvec3(1.0));
+    for (const double cut : {0.0, 12.0}) {
+        SCOPED_TRACE(testing::Message() << "forward cut " << cut);
+        const Turned colour = turned(albedo, cut, test::noSun(), sky, 1);
+        for (int channel = 0; channel < 3; ++channel) {
+            const Turned grey = turned(dvec3(albedo[channel]), cut, test::noSun(), sky, 2);
+            expectEqualMeans(colour.channel[channel], grey.channel[0]);
+        }
+    }
+}
+
+/// The same with the channels' roles and the lights' colours exchanged, in sunlight.
+TEST_F(Absorption, ColouredSunlight) {
+    const dvec3 albedo(0.3, 0.9, 0.95);
+    const scene::Sun sun = test::sunFrom({1, 2, 3}, {2.0, 0.5, 1.0}, 0.53);
+    const Turned colour = turned(albedo, 0.0, sun, test::skyOf({0.0, 0.2, 0.1}), 1);
+    for (int channel = 0; channel < 3; ++channel) {
+        const Turned grey = turned(dvec3(albedo[channel]), 0.0, sun, test::skyOf({0.0, 0.2, 0.1}), 2);
+        expectEqualMeans(colour.channel[channel], grey.channel[channel]);
+    }
+}
+
+/// Of the collisions in a grey cloud 1 − albedo are the last: a binomial number of them.
+TEST_F(Absorption, CollisionsAbsorbTheirShare) {
+    for (const double albedo : {0.2, 0.9, 0.99}) {
+        const Counters c = turned(dvec3(albedo), 0.0, test::noSun(), test::skyOf(dvec3(1.0)), 3).counters;
+        const auto events = static_cast<double>(c.events);
+        EXPECT_LT(std::abs(static_cast<double>(c.absorbed) - (1.0 - albedo) * events),
+                  4.0 * std::sqrt(events * albedo * (1.0 - albedo)));
+        EXPECT_EQ(c.records, c.events);
+    }
+}
+
+/// Absorbed by the collectors' account is absorbed by the count of photons: they carry one power in a grey cloud.
+TEST_F(Absorption, EnergyIsConserved) {
+    const double albedo = 0.8;
+    const Turned t = turned(dvec3(albedo), 0.0, test::noSun(), test::skyOf(dvec3(1.0)), 4);
+    const double edge = cloud.toWorld.linear[0][0] * cloud.size.x;
+    const double power = std::numbers::pi * 6.0 * edge * edge / 5000.0;
+    const double collided = t.channel[1].mean() * generations;
+    EXPECT_NEAR(collided, power * static_cast<double>(t.counters.events), 1e-4 * collided);
+    EXPECT_EQ(t.counters.absorbed + t.counters.escaped, t.counters.emitted);
+}
+
+}  // namespace
+}  // namespace lumulus::photon
