@@ -11,7 +11,7 @@ packages=(
     # Vulkan: headers, loader, a driver that runs on the CPU, validation
     libvulkan-dev libvulkan-volk-dev libspirv-cross-c-shared-dev mesa-vulkan-drivers vulkan-validationlayers
     # the rest
-    libcli11-dev libfmt-dev libglm-dev libspdlog-dev libtomlplusplus-dev nlohmann-json3-dev libgmock-dev libgtest-dev
+    libcli11-dev libfmt-dev libglm-dev libtomlplusplus-dev nlohmann-json3-dev libgmock-dev libgtest-dev
 )
 
 fail() {

@@ -162,7 +162,8 @@ void Renderer::traceGeneration() {
 }
 
 void Renderer::State::prepareDrawing() {
-    const draw::DrawFeatures features{!medium.tables.oneTurnH.empty(), scatters() && hasSun(), photons.has_value()};
+    const draw::DrawFeatures features{!medium.tables.oneTurnH.empty(), scatters() && hasSun(), photons.has_value(),
+                                      medium.albedo == glm::dvec3(medium.albedo.x)};
     if (features.sun) sunDepth.emplace(context, *cloud);
     if (features.photons) lightField.emplace(context, *cloud);
     phase.emplace(context, medium.tables);

@@ -9,6 +9,7 @@ layout(local_size_x = 16, local_size_y = 4) in;
 layout(constant_id = 0) const bool ONE_TURN = false;
 layout(constant_id = 1) const bool SUN = true;      // the sun shines
 layout(constant_id = 2) const bool PHOTONS = true;  // there is a photon map
+layout(constant_id = 3) const bool GREY = false;     // the albedo is the same for all colours
 
 layout(binding = 0, scalar) readonly buffer Params { DrawParams storedParams; };
 layout(binding = 1, scalar) readonly buffer PhaseTable { float phaseTable[]; };

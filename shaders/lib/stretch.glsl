@@ -1,12 +1,12 @@
 // Light of one view ray, put together from stretches of the cloud, nearest first. The includer declares lightField,
-// sunDepth, PhaseTable, OneTurnH, OneTurnK, `params` and the constants ONE_TURN, SUN and PHOTONS.
+// sunDepth, PhaseTable, OneTurnH, OneTurnK, `params` and the constants ONE_TURN, GREY, SUN and PHOTONS.
 #ifndef LUMULUS_LIB_STRETCH
 #define LUMULUS_LIB_STRETCH
 
 #include "lib/sun_source.glsl"
 
 /// Optical depth of the turned light beyond which a pixel is opaque.
-const float OPAQUE = 12.0;
+const float OPAQUE = 8.0;
 
 struct RayLight {
     vec3 cloud;
@@ -39,10 +39,10 @@ void addStretch(inout RayLight ray, SunView sun, float near, float far, float th
     if (PHOTONS) {
         // multiply scattered light: (1 − f) σs L against the turned medium's own extinction κ σt
         const vec3 turned = params.light.decay * thickness;
-        const vec3 filled = mix((1.0 - exp(-turned)) / max(params.light.decay, 1.0e-6), vec3(thickness),
+        const vec3 filled = mix((1.0 - decayed(-turned)) / max(params.light.decay, 1.0e-6), vec3(thickness),
                                 lessThan(turned, vec3(1.0e-3)));
         ray.cloud += params.light.albedo * params.light.turnShare * inScattered(voxel) * filled *
-                     exp(-params.light.decay * ray.depth);
+                     decayed(-params.light.decay * ray.depth);
     }
     if (SUN) ray.cloud += sunScattered(sun, params.light, sunDepthAt(voxel), ray.depth, thickness);
     const float weight = exp(-ray.depth) * (1.0 - exp(-thickness));

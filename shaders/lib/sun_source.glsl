@@ -1,11 +1,14 @@
 // The sun's light with one turn, per unit of σs and irradiance (one_turn.h has the formula). The includer declares the
 // buffer PhaseTable, the tables oneTurnH and oneTurnK as pictures (optical depth across, angle down) and the constant
-// ONE_TURN: whether the forward peak is cut.
+// ONE_TURN: whether the forward peak is cut, and GREY: whether the decay is the same for all colours.
 #ifndef LUMULUS_LIB_SUN_SOURCE
 #define LUMULUS_LIB_SUN_SOURCE
 
 #include "shared/draw.h"
 #include "shared/phase_table.h"
+
+/// exp of a multiple of the decay; one exponential where the albedo is grey.
+vec3 decayed(vec3 x) { return GREY ? vec3(exp(x.x)) : exp(x); }
 
 /// What of the sun's light depends on the view direction alone.
 struct SunView {
@@ -40,11 +43,11 @@ vec3 sunScattered(SunView sun, LightParams light, float tauSun, float tauView, f
     const float filled = thickness < 1.0e-3 ? thickness * (1.0 - 0.5 * thickness) : 1.0 - exp(-thickness);
     vec3 source = vec3(sun.phase * exp(-tauSun - tauView) * filled);
     if (ONE_TURN) {
-        source += oneTurnBefore(sun, light, tauSun) * exp(-light.decay * tauSun) * (exp(-tauView) * filled);
+        source += oneTurnBefore(sun, light, tauSun) * decayed(-light.decay * tauSun) * (exp(-tauView) * filled);
         const vec3 scaled = light.decay * thickness;
-        const vec3 held = mix((1.0 - exp(-scaled)) / max(light.decay, 1.0e-6), vec3(thickness), lessThan(scaled, vec3(1.0e-3)));
+        const vec3 held = mix((1.0 - decayed(-scaled)) / max(light.decay, 1.0e-6), vec3(thickness), lessThan(scaled, vec3(1.0e-3)));
         source += oneTurnAfter(sun, light, tauSun + tauView + 0.5 * min(thickness, 1.0)) *
-                  exp(-light.decay * (tauSun + tauView)) * held;
+                  decayed(-light.decay * (tauSun + tauView)) * held;
     }
     return light.albedo * light.sunIrradiance * source;
 }

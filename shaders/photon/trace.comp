@@ -94,7 +94,7 @@ bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint c
     vec4 choice = vec4(0.0);
     if (TURNS_ONLY || ABSORBS) choice = draw(state);
     if (TURNS_ONLY && choice.x >= params.turnShare) return survives(state, params.straightWeight, choice.y);
-    // The sun's first turn is drawn from the optical depths to the sun, not from the map (METHODS of the map: docs).
+    // The sun's first turn is drawn from the optical depths to the sun, not from the map (docs/architecture.md).
     if (state.turns > 0u || state.photon >= params.sunPhotons) record(state, voxel, lane, count);
     ++state.turns;
     if (ABSORBS && !survives(state, params.albedo, choice.y)) return false;

@@ -42,6 +42,15 @@ struct LeafPush {
     uint leaves;
 };
 
+#ifdef __cplusplus
+// Scalar layout, as SPIR-V has it; tests/unit/shared_layout_test.cpp compares every member.
+static_assert(sizeof(LeafBox) == 24 && offsetof(LeafBox, upper) == 12);
+static_assert(sizeof(LeafStatistics) == 24 && offsetof(LeafStatistics, occupied) == 20);
+static_assert(sizeof(BlockPush) == 60 && offsetof(BlockPush, gradientToMetres) == 24);
+static_assert(sizeof(SamplePush) == 68 && offsetof(SamplePush, seed) == 64);
+static_assert(sizeof(LeafPush) == 16 && offsetof(LeafPush, leaves) == 12);
+#endif
+
 SHARED_END
 
 #endif

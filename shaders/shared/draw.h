@@ -94,6 +94,18 @@ struct LightFieldPush {
     int edge;    // of a cell, voxels
 };
 
+#ifdef __cplusplus
+// Scalar layout, as SPIR-V has it; tests/unit/shared_layout_test.cpp compares every member.
+static_assert(sizeof(ViewParams) == 56 && offsetof(ViewParams, projection) == 52);
+static_assert(sizeof(LightParams) == 88 && offsetof(LightParams, tauMaximum) == 84);
+static_assert(sizeof(FieldParams) == 152 && offsetof(FieldParams, sunOffset) == 140);
+static_assert(sizeof(DrawParams) == 308 && offsetof(DrawParams, tilesAcross) == 304);
+static_assert(sizeof(Billboard) == 24 && offsetof(Billboard, collector) == 20);
+static_assert(sizeof(Pixel) == 48 && offsetof(Pixel, front) == 44);
+static_assert(sizeof(SunDepthPush) == 76 && offsetof(SunDepthPush, step) == 72);
+static_assert(sizeof(LightFieldPush) == 28 && offsetof(LightFieldPush, edge) == 24);
+#endif
+
 SHARED_END
 
 #endif

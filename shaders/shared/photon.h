@@ -98,6 +98,17 @@ struct ReconstructPush {
     mat3 voxelToWorld;
 };
 
+#ifdef __cplusplus
+// Scalar layout, as SPIR-V has it; tests/unit/shared_layout_test.cpp compares every member.
+static_assert(sizeof(TraceParams) == 224 && offsetof(TraceParams, collisionLimit) == 220);
+static_assert(sizeof(TraceState) == 72 && offsetof(TraceState, alive) == 68);
+static_assert(sizeof(PhotonRecord) == 16 && offsetof(PhotonRecord, power) == 8);
+static_assert(sizeof(TraceCounters) == 80 && offsetof(TraceCounters, unused) == 76);
+static_assert(sizeof(GatherPush) == 12 && offsetof(GatherPush, recordCapacity) == 8);
+static_assert(sizeof(AccumulatePush) == 12 && offsetof(AccumulatePush, keepSlots) == 8);
+static_assert(sizeof(ReconstructPush) == 56 && offsetof(ReconstructPush, voxelToWorld) == 20);
+#endif
+
 SHARED_END
 
 #endif

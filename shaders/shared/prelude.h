@@ -6,6 +6,7 @@
 
 #ifdef __cplusplus
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 

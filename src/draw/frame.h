@@ -14,9 +14,11 @@ struct DrawFeatures {
     bool oneTurn = false;  ///< the forward peak is cut
     bool sun = false;
     bool photons = false;
+    bool grey = false;  ///< the albedo is the same for all colours
 
     std::vector<gpu::SpecConstant> constants() const {
-        return {gpu::SpecConstant::of(0, oneTurn), gpu::SpecConstant::of(1, sun), gpu::SpecConstant::of(2, photons)};
+        return {gpu::SpecConstant::of(0, oneTurn), gpu::SpecConstant::of(1, sun), gpu::SpecConstant::of(2, photons),
+                gpu::SpecConstant::of(3, grey)};
     }
 };
 

@@ -1,0 +1,83 @@
+#include "draw/billboards.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "draw/bounds.h"
+#include "support/cloud_cases.h"
+#include "support/vulkan_fixture.h"
+
+namespace lumulus::draw {
+namespace {
+
+using glm::dvec3;
+using shared::Billboard;
+
+class MakeBillboards : public test::VulkanTest {
+  protected:
+    cloud::Cloud cloud = cloud::prepare(context, test::cloudCases()[2].volume, test::prepareOptions(1000));
+
+    static Camera cameraAt(const dvec3& position, scene::Projection projection) {
+        scene::Camera camera;
+        camera.position = position;
+        camera.target = position + dvec3(0.3, 0.2, -1.0);
+        camera.projection = projection;
+        return makeCamera(camera, {64, 64}, Bounds{});
+    }
+};
+
+/// Whatever its radius, a sphere has the extinction mass of its leaf: σ'·4/3 π R³ = σt ∫ρ dV.
+TEST_F(MakeBillboards, KeepTheMass) {
+    const double extinction = 0.3;
+    const dvec3 eye(10.0, 20.0, 200.0);
+    const auto billboards = makeBillboards(cloud, extinction, cameraAt(eye, scene::Projection::perspective));
+    ASSERT_EQ(billboards.size(), cloud.collectors.size());
+    for (const Billboard& b : billboards) {
+        const cloud::Collector& collector = cloud.collectors[b.collector];
+        const double mass = extinction * static_cast<double>(collector.mass) * cloud.voxelVolume;
+        const double sphere = 4.0 / 3.0 * std::numbers::pi * std::pow(static_cast<double>(b.radius), 3);
+        ASSERT_NEAR(static_cast<double>(b.extinction) * sphere, mass, 1e-5 * mass);
+        const dvec3 place = cloud.toWorld.point(dvec3(collector.centre)) - eye;
+        ASSERT_LT(glm::distance(dvec3(b.centre), place), 1e-4);
+    }
+}
+
+/// Nearest first: by distance from the eye, along the view where all rays are parallel.
+TEST_F(MakeBillboards, AreSortedForTheProjection) {
+    for (const auto projection :
+         {scene::Projection::perspective, scene::Projection::orthographic, scene::Projection::panorama}) {
+        const Camera camera = cameraAt({30.0, 30.0, 30.0}, projection);  // inside
+        const auto billboards = makeBillboards(cloud, 1.0, camera);
+        double last = -1e300;
+        for (const Billboard& b : billboards) {
+            const dvec3 centre = cloud.toWorld.point(dvec3(cloud.collectors[b.collector].centre)) - camera.position;
+            const double order = projection == scene::Projection::orthographic ? glm::dot(centre, camera.axes[2])
+                                                                               : glm::length(centre);
+            ASSERT_GE(order, last - 1e-9);
+            last = order;
+        }
+    }
+}
+
+TEST_F(MakeBillboards, TiesAreBrokenByIndex) {
+    const dvec3 eye(1.0, 2.0, 3.0);
+    cloud.toWorld = {glm::dmat3(1.0), dvec3(0.0)};
+    const cloud::Collector some = cloud.collectors[0];
+    cloud.collectors.assign(600, some);
+    // mirror images of one place about the eye, at three distances, in no order of distance
+    for (std::size_t i = 0; i < cloud.collectors.size(); ++i) {
+        const double distance = 4.0 + static_cast<double>((i * 7) % 3);
+        const dvec3 sign(i & 1U ? 1 : -1, i & 2U ? 1 : -1, i & 4U ? 1 : -1);
+        cloud.collectors[i].centre = glm::vec3(eye + distance * sign);
+    }
+    const auto billboards = makeBillboards(cloud, 1.0, cameraAt(eye, scene::Projection::perspective));
+    ASSERT_EQ(billboards.size(), 600U);
+    for (std::size_t i = 1; i < billboards.size(); ++i) {
+        if (i % 200 == 0) continue;  // the next distance
+        ASSERT_LT(billboards[i - 1].collector, billboards[i].collector);
+    }
+}
+
+}  // namespace
+}  // namespace lumulus::draw

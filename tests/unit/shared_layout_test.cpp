@@ -1,0 +1,97 @@
+// Every interface struct of shaders/shared lies in C++ as in SPIR-V.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "gpu/reflection.h"
+#include "shared/cloud.h"
+#include "shared/draw.h"
+#include "shared/photon.h"
+
+namespace lumulus::gpu {
+
+inline void PrintTo(const MemberLayout& member, std::ostream* out) {
+    *out << member.name << " at " << member.offset << ", " << member.bytes << " bytes";
+}
+
+namespace {
+
+namespace spirv {
+#include "spirv/cloud/block_majorant.comp.h"
+#include "spirv/cloud/leaf_statistics.comp.h"
+#include "spirv/cloud/sample.comp.h"
+#include "spirv/draw/billboards.comp.h"
+#include "spirv/draw/light_cells.comp.h"
+#include "spirv/draw/sun_depth.comp.h"
+#include "spirv/photon/accumulate.comp.h"
+#include "spirv/photon/gather.comp.h"
+#include "spirv/photon/reconstruct.comp.h"
+#include "spirv/photon/trace.comp.h"
+}  // namespace spirv
+
+using namespace shared;  // NOLINT: the structs under test
+
+// MEMBERS(Struct, a, b, …): a MemberLayout for each member.
+#define PARENTHESES ()
+#define EXPAND(...) EXPAND3(EXPAND3(EXPAND3(EXPAND3(__VA_ARGS__))))
+#define EXPAND3(...) EXPAND2(EXPAND2(EXPAND2(EXPAND2(__VA_ARGS__))))
+#define EXPAND2(...) EXPAND1(EXPAND1(EXPAND1(EXPAND1(__VA_ARGS__))))
+#define EXPAND1(...) __VA_ARGS__
+#define MEMBERS(type, ...) EXPAND(MEMBER_STEP(type, __VA_ARGS__))
+#define MEMBER_STEP(type, member, ...)                          \
+    MemberLayout{#member, offsetof(type, member), sizeof(type::member)} \
+    __VA_OPT__(, MEMBER_AGAIN PARENTHESES(type, __VA_ARGS__))
+#define MEMBER_AGAIN() MEMBER_STEP
+
+#define EXPECT_LAYOUT(shader, type, ...)                                                               \
+    do {                                                                                               \
+        const Reflection reflection = reflect(spirv::shader);                                          \
+        EXPECT_EQ(reflection.layout(#type).bytes, sizeof(type));                                       \
+        EXPECT_THAT(reflection.layout(#type).members, testing::ElementsAre(MEMBERS(type, __VA_ARGS__))); \
+    } while (false)
+
+/// A push-constant block holds the struct and is as large.
+#define EXPECT_PUSH(shader, type, ...)                                \
+    EXPECT_LAYOUT(shader, type, __VA_ARGS__);                         \
+    EXPECT_EQ(reflect(spirv::shader).pushBytes, sizeof(type)) << #type
+
+TEST(SharedLayout, Cloud) {
+    EXPECT_LAYOUT(leaf_statistics_comp, LeafBox, lower, upper);
+    EXPECT_LAYOUT(leaf_statistics_comp, LeafStatistics, majorant, mass, moment, occupied);
+    EXPECT_PUSH(leaf_statistics_comp, LeafPush, size, leaves);
+    EXPECT_PUSH(block_majorant_comp, BlockPush, size, blocks, gradientToMetres);
+    EXPECT_PUSH(sample_comp, SamplePush, gradientToMetres, size, blocks, samples, seed);
+}
+
+TEST(SharedLayout, Photon) {
+    EXPECT_LAYOUT(trace_comp, TraceParams, worldToVoxel, size, cells, cellSize, extinction, turnShare, albedo,
+                  straightWeight, turnFraction, asymmetry, sunDirection, sunCone, faceArea, sunPower, skyPower,
+                  sunPhotons, photons, generation, stream, collectors, invocations, recordCapacity, stepLimit,
+                  collisionLimit);
+    EXPECT_LAYOUT(trace_comp, TraceState, cell, offset, direction, weight, depth, photon, draws, collisions, turns,
+                  alive);
+    EXPECT_LAYOUT(trace_comp, PhotonRecord, collector, direction, power);
+    EXPECT_LAYOUT(trace_comp, TraceCounters, events, nulls, absorbed, escaped, lost, records, reflected, transmittedDiffuse,
+                  transmittedDirect, pending, unused);
+    EXPECT_PUSH(gather_comp, GatherPush, collectors, invocations, recordCapacity);
+    EXPECT_PUSH(accumulate_comp, AccumulatePush, coefficients, shift, keepSlots);
+    EXPECT_PUSH(reconstruct_comp, ReconstructPush, collectors, scale, eye, voxelToWorld);
+}
+
+TEST(SharedLayout, Draw) {
+    EXPECT_LAYOUT(billboards_comp, ViewParams, right, up, forward, halfExtent, size, projection);
+    EXPECT_LAYOUT(billboards_comp, LightParams, sunTravel, sunIrradiance, sunDisc, sunCone, skyRadiance, albedo, decay,
+                  turnShare, angleScale, tauMaximum);
+    EXPECT_LAYOUT(billboards_comp, FieldParams, worldToVoxel, eyeVoxel, size, cells, cellSize, extinction, voxelLength,
+                  radianceScale, voxelToSun, sunOffset);
+    EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, field, firstRow, rows, tilesAcross);
+    EXPECT_LAYOUT(billboards_comp, Billboard, centre, radius, extinction, collector);
+    EXPECT_LAYOUT(billboards_comp, Pixel, radiance, cloud, transmittance, alpha, depth, front);
+    EXPECT_PUSH(sun_depth_comp, SunDepthPush, gridToVoxel, originVoxel, inverseSize, grid, step);
+    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge);
+}
+
+}  // namespace
+}  // namespace lumulus::gpu

@@ -1,0 +1,1 @@
+lumulus_test(tiles_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/tiles_test.cpp LINK lumulus_draw)
