@@ -35,9 +35,9 @@ void addBillboard(inout RayLight ray, SunView sun, Billboard billboard, vec3 ori
     const float halfChord = sqrt(squared);
     const float near = max(along - halfChord, 0.0), far = along + halfChord;
     if (far <= near) return;
-    const vec3 middle = origin + (0.5 * (near + far)) * direction;
-    addStretch(ray, sun, near, far, billboard.extinction * (far - near),
-               params.field.eyeVoxel + params.field.worldToVoxel * middle);
+    const float thickness = billboard.extinction * (far - near);
+    const vec3 seen = origin + mix(near, far, seenAt(thickness, 0.5)) * direction;
+    addStretch(ray, sun, near, far, thickness, params.field.eyeVoxel + params.field.worldToVoxel * seen);
 }
 
 void main() {

@@ -51,11 +51,13 @@ void marchCell(inout RayLight ray, SunView sun, vec3 start, vec3 velocity, vec2 
     const float count = clamp(steps, 1.0, 512.0);
     const float dt = length_ / count;
     for (float i = 0.0; i < count; i += 1.0) {
-        const float t = span.x + (i + offset) * dt;
-        const vec3 voxel = start + velocity * t;
-        const float found = densityAt(density, voxel, 1.0 / params.field.size);
-        if (found > 0.0)
-            addStretch(ray, sun, span.x + i * dt, span.x + (i + 1.0) * dt, found * params.field.extinction * dt, voxel);
+        const float near = span.x + i * dt;
+        const float found = densityAt(density, start + velocity * (near + offset * dt), 1.0 / params.field.size);
+        if (found > 0.0) {
+            const float thickness = found * params.field.extinction * dt;
+            const vec3 seen = start + velocity * (near + seenAt(thickness, offset) * dt);
+            addStretch(ray, sun, near, near + dt, thickness, seen);
+        }
     }
 }
 

@@ -34,6 +34,12 @@ float sunDepthAt(vec3 voxel) {
     return textureLod(sunDepth, params.field.voxelToSun * voxel + params.field.sunOffset, 0.0).r;
 }
 
+/// Where in a stretch (0 its near end, 1 its far end) the light seen comes from, as the quantile u of what it sends: in
+/// the middle of thin ones, at the skin of thick ones.
+float seenAt(float thickness, float u) {
+    return thickness < 0.05 ? u : -log(1.0 - u * (1.0 - exp(-thickness))) / thickness;
+}
+
 /// Adds a stretch of optical thickness `thickness` between the distances near and far, lit as at `voxel`.
 void addStretch(inout RayLight ray, SunView sun, float near, float far, float thickness, vec3 voxel) {
     if (PHOTONS) {

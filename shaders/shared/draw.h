@@ -25,29 +25,29 @@ struct ViewParams {
 };
 
 struct LightParams {
-    vec3 sunTravel;       // unit vector along which sunlight travels
+    vec3 sunTravel;  // unit vector along which sunlight travels
     vec3 sunIrradiance;
-    vec3 sunDisc;         // radiance of the visible disc
-    float sunCone;        // 1 − cos of its angular radius
+    vec3 sunDisc;   // radiance of the visible disc
+    float sunCone;  // 1 − cos of its angular radius
     vec3 skyRadiance;
     vec3 albedo;
-    vec3 decay;           // κ = 1 − ω f: optical depth of the turned light per true optical depth
-    float turnShare;      // 1 − f
-    float angleScale;     // axes of the phase tables
+    vec3 decay;        // κ = 1 − ω f: optical depth of the turned light per true optical depth
+    float turnShare;   // 1 − f
+    float angleScale;  // axes of the phase tables
     float tauMaximum;
 };
 
 /// Where the cloud and the light in it lie; `voxel` are voxel coordinates.
 struct FieldParams {
-    mat3 worldToVoxel;      // of directions: voxels per metre
-    vec3 eyeVoxel;          // the camera's position
-    vec3 size;              // of the density volume, voxels
-    ivec3 cells;            // of the majorant grid
-    vec3 cellSize;          // voxels
-    float extinction;       // σt at density 1 [1/m]
-    float voxelLength;      // metres: the finest step of a march
-    vec3 radianceScale;     // voxel → texture coordinates of the in-scattered radiance
-    mat3 voxelToSun;        // voxel → texture coordinates of the optical depth to the sun
+    mat3 worldToVoxel;   // of directions: voxels per metre
+    vec3 eyeVoxel;       // the camera's position
+    vec3 size;           // of the density volume, voxels
+    ivec3 cells;         // of the majorant grid
+    vec3 cellSize;       // voxels
+    float extinction;    // σt at density 1 [1/m]
+    float voxelLength;   // metres: the finest step of a march
+    vec3 radianceScale;  // voxel → texture coordinates of the in-scattered radiance
+    mat3 voxelToSun;     // voxel → texture coordinates of the optical depth to the sun
     vec3 sunOffset;
 };
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.h"
 
@@ -21,7 +20,7 @@ std::vector<PhotonBudget> planPhotons(std::span<const double> budgets, const Cos
     std::vector<PhotonBudget> plan;
     for (const double seconds : budgets) {
         const double photons = std::min(most, (seconds - cost.fixed) / cost.perPhoton);
-        const PhotonBudget budget{seconds, std::max(fewest, std::llround(photons))};
+        const PhotonBudget budget{seconds, std::max(fewest, static_cast<std::int64_t>(photons + 0.5))};
         if (!plan.empty() && plan.back().photons == budget.photons) continue;
         plan.push_back(budget);
     }

@@ -57,15 +57,15 @@ std::vector<Row> summarise(std::span<const Run> runs) {
 
 std::string csv(std::span<const Row> rows) {
     std::string text = "method,budget,seeds";
-    for (const char* name : {"seconds", "seconds_without_warmup", "photons_or_spp", "relMSE", "RMSE", "FLIP", "bias",
-                             "relative_bias"}) {
+    for (const char* name :
+         {"seconds", "seconds_without_warmup", "photons_or_spp", "relMSE", "RMSE", "FLIP", "bias", "relative_bias"}) {
         text += fmt::format(",{0},{0}_spread", name);
     }
     text += "\n";
     for (const Row& row : rows) {
         text += fmt::format("{},{:.6g},{}", nameOf(row.method), row.budget, row.seeds);
-        for (const Spread& s : {row.seconds, row.warmSeconds, row.amount, row.relMse, row.rmse, row.flip, row.bias,
-                                row.relativeBias}) {
+        for (const Spread& s :
+             {row.seconds, row.warmSeconds, row.amount, row.relMse, row.rmse, row.flip, row.bias, row.relativeBias}) {
             text += fmt::format(",{:.6g},{:.3g}", s.mean, s.deviation);
         }
         text += "\n";

@@ -9,6 +9,7 @@
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/version.h"
+#include "cli/bench.h"
 #include "cli/cloud.h"
 #include "cli/compare.h"
 #include "cli/info.h"
@@ -127,6 +128,24 @@ void addSlab(CLI::App& app, SlabOptions& options, Action& action) {
     command->callback([&options, &action] { action = [&options] { runSlab(options); }; });
 }
 
+void addBench(CLI::App& app, BenchOptions& options, Action& action) {
+    CLI::App* command = app.add_subcommand("bench", "Measure error against run time, of render and of the path tracer");
+    command->add_option("scene", options.scene, "Scene file (TOML)")->required();
+    command->add_option("--reference", options.reference, "Reference (.exr), of the scene's size")->required();
+    command->add_option("-o,--output", options.output, "Folder for error.csv and error.svg")->required();
+    command->add_option("--seconds", options.seconds, "Times to run for, without warm-up (0.1,0.3,1,3,10)")
+        ->delimiter(',');
+    command->add_option("--seeds", options.seeds, "Pictures for each time")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
+        ->allow_extra_args(false);
+    command->add_option("--device", options.device, "Name (a part is enough) or index of a device, see info --devices");
+    command->add_flag("--quiet", options.quiet, "No progress");
+    command->footer("Example:\n  lumulus bench configs/scenes/cumulus.toml --reference truth.exr -o bench");
+    command->callback([&options, &action] { action = [&options] { runBench(options); }; });
+}
+
 /// Parses and runs. CLI11's own errors become bad usage; asking for help or the version does not fail.
 void parseAndRun(int argc, const char* const* argv) {
     CLI::App app("Lumulus renders clouds.", "lumulus");
@@ -139,12 +158,14 @@ void parseAndRun(int argc, const char* const* argv) {
     InfoOptions info;
     ReferenceOptions reference;
     CompareOptions compare;
+    BenchOptions bench;
     SlabOptions slab;
     addRender(app, render, action);
     addCloud(app, cloud, action);
     addInfo(app, info, action);
     addReference(app, reference, action);
     addCompare(app, compare, action);
+    addBench(app, bench, action);
     addSlab(app, slab, action);
     try {
         app.parse(argc, argv);

@@ -1,0 +1,80 @@
+#include "bench/table.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <vector>
+
+#include "bench/curve.h"
+
+namespace lumulus::bench {
+namespace {
+
+constexpr std::array<double, 2> targets{1e-2, 3e-3};
+
+struct Clock {
+    const char* name;
+    Spread Row::*seconds;
+};
+
+constexpr std::array<Clock, 2> clocks{{{"without warm-up", &Row::warmSeconds}, {"whole", &Row::seconds}}};
+
+std::vector<CurvePoint> curveOf(std::span<const Row> rows, Method method, const Clock& clock) {
+    std::vector<CurvePoint> curve;
+    for (const Row& row : rows) {
+        if (row.method == method) curve.push_back({(row.*clock.seconds).mean, row.relMse.mean});
+    }
+    return curve;
+}
+
+std::string timeText(const TimeToError& time) {
+    switch (time.how) {
+        case Reached::measured:
+            return fmt::format("{:.3g} s", time.seconds);
+        case Reached::atFirst:
+            return fmt::format("≤ {:.3g} s", time.seconds);
+        case Reached::extrapolated:
+            return fmt::format("~{:.3g} s", time.seconds);
+        case Reached::never:
+            break;
+    }
+    return "not reached";
+}
+
+/// How many times longer the path tracer takes.
+std::string ratioText(const TimeToError& render, const TimeToError& tracer) {
+    if (render.how == Reached::never || tracer.how == Reached::never) return "-";
+    const bool renderBound = render.how == Reached::atFirst, tracerBound = tracer.how == Reached::atFirst;
+    const double ratio = tracer.seconds / render.seconds;
+    if (renderBound && tracerBound) return "-";  // a ratio of two upper bounds says nothing
+    return fmt::format("{}{:.3g}", renderBound ? "≥ " : tracerBound ? "≤ " : "", ratio);
+}
+
+std::string rowText(const Row& row) {
+    return fmt::format("{:<12}{:>10.3f}{:>10.3f}{:>12.4g}  {:>9.3g} ±{:<8.2g}{:>9.3g}{:>8.3f}{:>+9.2f} %\n",
+                       nameOf(row.method), row.warmSeconds.mean, row.seconds.mean, row.amount.mean, row.relMse.mean,
+                       row.relMse.deviation, row.rmse.mean, row.flip.mean, 1e2 * row.relativeBias.mean);
+}
+
+}  // namespace
+
+std::string tableText(std::span<const Row> rows, std::optional<double> floor) {
+    std::string text = fmt::format("{:<12}{:>10}{:>10}{:>12}  {:>9} {:<9}{:>9}{:>8}{:>11}\n", "method", "warm s",
+                                   "whole s", "photons/spp", "relMSE", "", "RMSE", "FLIP", "bias");
+    for (const Row& row : rows) text += rowText(row);
+    text += floor ? fmt::format("reference noise: relMSE {:.3g}, subtracted\n", *floor)
+                  : std::string("reference noise: unknown, it has no variance layers; nothing subtracted\n");
+    text += fmt::format("\n{:<28}{:>14}{:>14}{:>10}\n", "time to reach", "render", "path tracer", "ratio");
+    for (const double target : targets) {
+        for (const Clock& clock : clocks) {
+            const TimeToError render = timeToReach(curveOf(rows, Method::render, clock), target, Beyond::unknown);
+            const TimeToError tracer =
+                timeToReach(curveOf(rows, Method::pathTracer, clock), target, Beyond::inverseTime);
+            text += fmt::format("relMSE {:<6g} {:<14}{:>14}{:>14}{:>10}\n", target, clock.name, timeText(render),
+                                timeText(tracer), ratioText(render, tracer));
+        }
+    }
+    return text + "~ extrapolated as 1/time, ≤ reached before the first measurement\n";
+}
+
+}  // namespace lumulus::bench

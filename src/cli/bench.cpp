@@ -1,0 +1,78 @@
+#include "cli/bench.h"
+
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/exr.h"
+#include "base/progress.h"
+#include "bench/measure.h"
+#include "bench/path_tracer_runs.h"
+#include "bench/plan.h"
+#include "bench/plot.h"
+#include "bench/record.h"
+#include "bench/render_runs.h"
+#include "bench/table.h"
+#include "cli/output.h"
+#include "scene/load.h"
+
+namespace lumulus::cli {
+namespace {
+
+void makeFolder(const std::filesystem::path& folder) {
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (!std::filesystem::is_directory(folder)) {
+        throw InputError("cannot make the folder", folder.string(), "give -o a folder that can be written to");
+    }
+}
+
+/// The seed that the reference says it was made with.
+std::optional<std::uint64_t> seedOf(const LayeredImage& reference) {
+    const auto found = reference.attributes.find("seed");
+    if (found == reference.attributes.end()) return {};
+    const std::string& text = found->second;
+    std::uint64_t seed = 0;
+    const auto end = std::from_chars(text.data(), text.data() + text.size(), seed);
+    if (end.ec != std::errc()) return {};
+    return seed;
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+    writeFile(path, std::as_bytes(std::span(text)));
+}
+
+}  // namespace
+
+void runBench(const BenchOptions& options) {
+    const std::vector<double> budgets = bench::orderedBudgets(options.seconds);
+    const scene::Scene scene = scene::loadScene(options.scene, options.overrides);
+    LayeredImage picture = readExr(options.reference);
+    const std::vector<std::uint64_t> seeds = bench::seedsWithout(scene.photonMap.seed, options.seeds, seedOf(picture));
+    const bench::Truth truth = bench::makeTruth(std::move(picture), options.reference.string(), scene.image.width,
+                                                scene.image.height, scene.image.exposure);
+    makeFolder(options.output);
+    checkWritable(options.output / "error.csv");
+    checkWritable(options.output / "error.svg");
+
+    const std::uint64_t pictures = budgets.size() * seeds.size();
+    std::vector<bench::Run> runs;
+    {
+        Progress progress("render", pictures, options.quiet);
+        runs = bench::renderRuns(scene, options.device, truth, budgets, seeds, progress);
+    }
+    {
+        Progress progress("path tracer", pictures, options.quiet);
+        const std::vector<bench::Run> traced = bench::pathTracerRuns(scene, truth, budgets, seeds, progress);
+        runs.insert(runs.end(), traced.begin(), traced.end());
+    }
+    const std::vector<bench::Row> rows = bench::summarise(runs);
+    write(options.output / "error.csv", bench::csv(rows));
+    write(options.output / "error.svg", bench::errorPlotSvg(rows, options.scene.filename().string(), truth.floor));
+    printOut(bench::tableText(rows, truth.floor));
+}
+
+}  // namespace lumulus::cli

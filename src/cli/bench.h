@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lumulus::cli {
+
+struct BenchOptions {
+    std::filesystem::path scene;
+    std::filesystem::path reference;  ///< .exr of the scene's size
+    std::filesystem::path output;     ///< folder for error.csv and error.svg; made where it is missing
+    std::vector<double> seconds{0.1, 0.3, 1.0, 3.0, 10.0};
+    int seeds = 3;
+    std::vector<std::string> overrides;
+    std::string device;
+    bool quiet = false;
+};
+
+/// `lumulus bench`: error against run time of `render` and of the path tracer. Errors: InputError before any work for
+/// bad usage, scenes and references that do not fit; Error where interrupted (nothing is written then).
+void runBench(const BenchOptions& options);
+
+}  // namespace lumulus::cli
