@@ -52,8 +52,8 @@ TEST_F(MakeBillboards, AreSortedForTheProjection) {
         double last = -1e300;
         for (const Billboard& b : billboards) {
             const dvec3 centre = cloud.toWorld.point(dvec3(cloud.collectors[b.collector].centre)) - camera.position;
-            const double order = projection == scene::Projection::orthographic ? glm::dot(centre, camera.axes[2])
-                                                                               : glm::length(centre);
+            const double order =
+                projection == scene::Projection::orthographic ? glm::dot(centre, camera.axes[2]) : glm::length(centre);
             ASSERT_GE(order, last - 1e-9);
             last = order;
         }

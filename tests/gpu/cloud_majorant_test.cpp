@@ -49,8 +49,8 @@ float gridMajorant(const MajorantGrid& grid, const dvec3& point) {
     for (int z = range[2].first; z <= range[2].second; ++z)
         for (int y = range[1].first; y <= range[1].second; ++y)
             for (int x = range[0].first; x <= range[0].second; ++x)
-                least = std::min(
-                    least, grid.maxima[static_cast<std::size_t>((z * grid.cells.y + y) * grid.cells.x + x)]);
+                least =
+                    std::min(least, grid.maxima[static_cast<std::size_t>((z * grid.cells.y + y) * grid.cells.x + x)]);
     return least;
 }
 
@@ -86,7 +86,8 @@ TEST_F(CloudMajorants, LeavesAreNeverBelowTheDensity) {
             for (int corner = 0; corner < 8; ++corner) {
                 const dvec3 away(corner & 1, (corner >> 1) & 1, corner >> 2);
                 const ivec3 voxel = glm::clamp(ivec3(glm::floor(point - 1e-9 * away)), ivec3(0), field.size() - 1);
-                ASSERT_GE(static_cast<double>(majorants[static_cast<std::size_t>(cloud.tree.find(voxel))]), density - rounding);
+                ASSERT_GE(static_cast<double>(majorants[static_cast<std::size_t>(cloud.tree.find(voxel))]),
+                          density - rounding);
             }
         }
     }
@@ -109,8 +110,7 @@ TEST_F(CloudMajorants, GridIsTight) {
                     for (int j = lower.y - 1; j <= upper.y; ++j)
                         for (int i = lower.x - 1; i <= upper.x; ++i)
                             largest = std::max(largest, field.texel({i, j, k}));
-                const float majorant =
-                    grid.maxima[static_cast<std::size_t>((z * grid.cells.y + y) * grid.cells.x + x)];
+                const float majorant = grid.maxima[static_cast<std::size_t>((z * grid.cells.y + y) * grid.cells.x + x)];
                 ASSERT_NEAR(static_cast<double>(majorant), largest, 2e-5);
                 const dvec3 extent = dvec3(upper - lower);
                 volume += extent.x * extent.y * extent.z;

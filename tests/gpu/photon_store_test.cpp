@@ -52,13 +52,14 @@ TEST_F(PhotonStore, FullStoreDropsNothing) {
 TEST_F(PhotonStore, EveryPhotonEnds) {
     struct Case {
         dvec3 albedo;
-        double cut;
+        bool cut;
         std::uint64_t photons;
     };
     const dvec3 mixed(0.3, 0.9, 0.0), redEats(0.5, 1.0, 1.0);
-    for (const Case& c : {Case{dvec3(0.0), 0.0, 5000}, Case{mixed, 0.0, 5000}, Case{mixed, 12.0, 5000},
-                          Case{redEats, 12.0, 5000}, Case{dvec3(1.0), 0.0, 63}, Case{dvec3(1.0), 12.0, 1}}) {
-        const Medium medium = test::mediumOf({.extinction = 0.2, .albedo = c.albedo, .cut = c.cut});
+    const Medium whole = test::mediumOf({.extinction = 0.2}), cut = test::mediumOf({.extinction = 0.2, .cut = 12.0});
+    for (const Case& c : {Case{dvec3(0.0), false, 5000}, Case{mixed, false, 5000}, Case{mixed, true, 5000},
+                          Case{redEats, true, 5000}, Case{dvec3(1.0), false, 63}, Case{dvec3(1.0), true, 1}}) {
+        const Medium medium = test::withAlbedo(c.cut ? cut : whole, c.albedo);
         const Counters counters =
             traced(medium, test::sunFrom({1, 1, 1}, dvec3(1.0), 0.53), test::skyOf({0.1, 0.2, 0.3}), c.photons);
         EXPECT_EQ(counters.emitted, c.photons);

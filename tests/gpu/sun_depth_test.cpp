@@ -42,8 +42,7 @@ class SunDepthTest : public test::VulkanTest {
         for (const std::uint16_t bits : gpu::download<std::uint16_t>(context, sun.image()))
             result.depths.push_back(static_cast<double>(glm::unpackHalf1x16(bits)));
         for (const ivec3& texel : {ivec3(0), result.grid.size - 1, result.grid.size / 2}) {
-            const glm::vec3 found =
-                sun.voxelToTexture() * glm::vec3(result.voxelOf(texel)) + sun.textureOffset();
+            const glm::vec3 found = sun.voxelToTexture() * glm::vec3(result.voxelOf(texel)) + sun.textureOffset();
             EXPECT_LT(glm::distance(dvec3(found), (dvec3(texel) + 0.5) / dvec3(result.grid.size)), 1e-5);
         }
         return result;
@@ -53,6 +52,13 @@ class SunDepthTest : public test::VulkanTest {
 /// A deck lit from above: depth grows by σ a metre from its top down, and stays behind it.
 TEST_F(SunDepthTest, SlabFromAbove) {
     constexpr int height = 8;
+    // depth [m] at density 1; the density rises from 0 to 1 between ½ and 1½ m below the top of the volume
+    const auto lengthAbove = [](double below) {
+        if (below < 0.5) return 0.0;
+        if (below < 1.5) return 0.5 * std::pow(below - 0.5, 2);
+        if (below < height + 0.5) return below - 1.0;
+        return height - 0.5 * std::pow(std::max(0.0, height + 1.5 - below), 2);
+    };
     const cloud::Cloud cloud = cloud::prepare(context, boxVolume({20, height, 20}), test::prepareOptions(100));
     const double extinction = 0.5;
     const DepthGrid grid = fill(cloud, {0.0, -1.0, 0.0}, extinction);
@@ -62,12 +68,8 @@ TEST_F(SunDepthTest, SlabFromAbove) {
             for (int i = 0; i < grid.grid.size.x; ++i) {
                 const dvec3 voxel = grid.voxelOf({i, j, k});
                 if (voxel.x < 1.5 || voxel.z < 1.5 || voxel.x > 20.5 || voxel.z > 20.5) continue;  // the soft rim
-                // the density rises from 0 to 1 between ½ and 1½ below the top of the volume
                 const double below = height + 2 - voxel.y;
-                const double length = below < 0.5            ? 0.0
-                                      : below < 1.5          ? 0.5 * std::pow(below - 0.5, 2)
-                                      : below < height + 0.5 ? below - 1.0
-                                                             : height - 0.5 * std::pow(std::max(0.0, height + 1.5 - below), 2);
+                const double length = lengthAbove(below);
                 ASSERT_NEAR(grid.at({i, j, k}), extinction * length, 0.02 * extinction) << below << " m below the top";
                 ++inside;
             }
@@ -89,11 +91,12 @@ TEST_F(SunDepthTest, BallFromAnySide) {
                     const dvec3 place = ball.toWorld.point(grid.voxelOf({i, j, k}));
                     const double along = glm::dot(place, travel);
                     const double b = glm::length(place - along * travel);
-                    if (b > 0.9 * radius) continue;  // at the rim a voxel is not thin against the chord
+                    if (b > 0.8 * radius) continue;  // at the rim a voxel is not thin against the chord
                     const double half = std::sqrt(radius * radius - b * b);
                     const double path = std::clamp(along + half, 0.0, 2.0 * half);
-                    // the rim is blurred over a voxel of 1.25 m
-                    ASSERT_NEAR(grid.at({i, j, k}), extinction * path, extinction * 0.6) << b << " " << along;
+                    // the rim is blurred over a voxel of 1.25 m, more where the ray grazes it
+                    ASSERT_NEAR(grid.at({i, j, k}), extinction * path, extinction * 0.6 * radius / half)
+                        << b << " " << along;
                     if (along > half + 1.5) {
                         ASSERT_NEAR(grid.at({i, j, k}), extinction * path, 0.02 * extinction * path) << b;
                         ++behind;

@@ -150,7 +150,12 @@ TEST_F(Furnace, ForwardCut) {
 TEST_F(Furnace, ShearedLumpsOfDroplets) {
     const glm::dmat3 edges(dvec3(3.0, 0.5, 0), dvec3(1.0, 2.0, 0.3), dvec3(0, -0.4, 2.5));
     const scene::Phase droplets{.model = scene::PhaseModel::droplet, .dropletDiameter = 12.0};
-    run({"lumps", test::lumpyVolume({22, 25, 19}, edges, 2), 0.2, 50'000, {.phase = droplets}, scene::Majorant::local,
+    run({"lumps",
+         test::lumpyVolume({22, 25, 19}, edges, 2),
+         0.2,
+         50'000,
+         {.phase = droplets},
+         scene::Majorant::local,
          400});
 }
 

@@ -67,17 +67,17 @@ TEST_F(GradientSampling, FollowsTheGradientInSpace) {
         const Bins bins(field.size());
         const std::vector<double> shares = expectedShares(field, toMetres, bins);
         for (const std::uint32_t seed : {1U, 2U}) {
-            PrepareOptions options = test::prepareOptions(40000);
+            PrepareOptions options = test::prepareOptions(100'000);
             options.preparation.maxLeaves = 16;
             options.seed = seed;
             const Cloud cloud = prepare(context, c.volume, options);
-            ASSERT_EQ(cloud.samples.size(), 40000U);
+            ASSERT_EQ(cloud.samples.size(), 100'000U);
             std::vector<double> seen(bins.size(), 0.0), due;
             for (const Sample& sample : cloud.samples) {
                 seen[bins.of(dvec3(sample.position))] += 1.0;
                 ASSERT_NEAR(static_cast<double>(sample.density), field.at(dvec3(sample.position)), 1e-4);
             }
-            for (const double share : shares) due.push_back(share * 40000.0);
+            for (const double share : shares) due.push_back(share * 1e5);
             EXPECT_LT(std::abs(test::chiSquareDeviation(seen, due)), 4.0);
         }
     }

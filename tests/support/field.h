@@ -84,8 +84,7 @@ class Field {
         double length = 1e300;
         for (int axis = 0; axis < 3; ++axis)
             if (step[axis] != 0.0)
-                length =
-                    std::min(length, ((step[axis] > 0.0 ? double(size_[axis]) : 0.0) - point[axis]) / step[axis]);
+                length = std::min(length, ((step[axis] > 0.0 ? double(size_[axis]) : 0.0) - point[axis]) / step[axis]);
         const double fastest = std::max(std::abs(step.x), std::max(std::abs(step.y), std::abs(step.z)));
         const int count = std::max(1, static_cast<int>(length * fastest * perVoxel));
         double sum = 0.0;

@@ -49,6 +49,29 @@ FloatGrid::Ptr oneVoxel() {
     return grid;
 }
 
+/// A cube of 24³ voxels whose densities `value(x, y, z)` gives.
+template <typename Value>
+FloatGrid::Ptr cube(const Value& value) {
+    auto grid = emptyGrid();
+    auto accessor = grid->getAccessor();
+    for (int z = 0; z < 24; ++z) {
+        for (int y = 0; y < 24; ++y) {
+            for (int x = 0; x < 24; ++x) accessor.setValue(Coord(x, y, z), value(x, y, z));
+        }
+    }
+    return grid;
+}
+
+/// Density 1 with one voxel of 10⁶ in the middle.
+FloatGrid::Ptr spike() {
+    return cube([](int x, int y, int z) { return x == 12 && y == 12 && z == 12 ? 1e6F : 1.0F; });
+}
+
+/// Every other voxel is empty, in all three directions.
+FloatGrid::Ptr checkerboard() {
+    return cube([](int x, int y, int z) { return static_cast<float>((x + y + z) % 2); });
+}
+
 FloatGrid::Ptr zeros() {
     auto grid = emptyGrid();
     grid->fill(openvdb::CoordBBox(Coord(0), Coord(9)), 0.0F, true);
@@ -91,6 +114,8 @@ int main(int argc, char** argv) {
     write(folder / "ball.vdb", ball());
     write(folder / "far.vdb", farAway());
     write(folder / "one-voxel.vdb", oneVoxel());
+    write(folder / "spike.vdb", spike());
+    write(folder / "checkerboard.vdb", checkerboard());
     write(folder / "zeros.vdb", zeros());
     write(folder / "nan.vdb", ballWith(std::numeric_limits<float>::quiet_NaN()));
     write(folder / "infinite.vdb", ballWith(std::numeric_limits<float>::infinity()));

@@ -37,6 +37,12 @@ inline photon::Medium mediumOf(const MediumOptions& options) {
     return medium;
 }
 
+/// The same medium with another albedo, without making the tables anew: those of the photon walk do not depend on it.
+inline photon::Medium withAlbedo(photon::Medium medium, const glm::dvec3& albedo) {
+    medium.albedo = albedo;
+    return medium;
+}
+
 inline photon::Options mapOptions(std::uint64_t photons, int generations, int bands, std::uint64_t seed = 1) {
     photon::Options options;
     options.photonsPerGeneration = photons;

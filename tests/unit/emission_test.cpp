@@ -59,16 +59,14 @@ TEST(Emission, PhotonsCarryTheFlux) {
     constexpr std::uint64_t photons = 37;
     constexpr int steps = 1000;
     double sun = 0.0;
-    for (int i = 0; i < steps; ++i)
-        sun += static_cast<double>(emission.sunPhotons(photons, (i + 0.5) / steps)) / steps;
+    for (int i = 0; i < steps; ++i) sun += static_cast<double>(emission.sunPhotons(photons, (i + 0.5) / steps)) / steps;
     for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(emission.sunPower(photons)[c] * sun, emission.sunFlux[c], 2e-3 * emission.sunFlux[c]);
         EXPECT_NEAR(emission.skyPower(photons)[c] * (double{photons} - sun), emission.skyFlux[c],
                     2e-3 * emission.skyFlux[c]);
     }
     const dvec3 luminance(0.2126, 0.7152, 0.0722);
-    EXPECT_NEAR(glm::dot(emission.sunPower(photons), luminance), glm::dot(emission.skyPower(photons), luminance),
-                1e-9);
+    EXPECT_NEAR(glm::dot(emission.sunPower(photons), luminance), glm::dot(emission.skyPower(photons), luminance), 1e-9);
 }
 
 }  // namespace

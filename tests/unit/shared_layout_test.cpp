@@ -40,21 +40,21 @@ using namespace shared;  // NOLINT: the structs under test
 #define EXPAND2(...) EXPAND1(EXPAND1(EXPAND1(EXPAND1(__VA_ARGS__))))
 #define EXPAND1(...) __VA_ARGS__
 #define MEMBERS(type, ...) EXPAND(MEMBER_STEP(type, __VA_ARGS__))
-#define MEMBER_STEP(type, member, ...)                          \
-    MemberLayout{#member, offsetof(type, member), sizeof(type::member)} \
-    __VA_OPT__(, MEMBER_AGAIN PARENTHESES(type, __VA_ARGS__))
+#define MEMBER_STEP(type, member, ...)            \
+    MemberLayout{#member, offsetof(type, member), \
+                 sizeof(type::member)} __VA_OPT__(, MEMBER_AGAIN PARENTHESES(type, __VA_ARGS__))
 #define MEMBER_AGAIN() MEMBER_STEP
 
-#define EXPECT_LAYOUT(shader, type, ...)                                                               \
-    do {                                                                                               \
-        const Reflection reflection = reflect(spirv::shader);                                          \
-        EXPECT_EQ(reflection.layout(#type).bytes, sizeof(type));                                       \
+#define EXPECT_LAYOUT(shader, type, ...)                                                                 \
+    do {                                                                                                 \
+        const Reflection reflection = reflect(spirv::shader);                                            \
+        EXPECT_EQ(reflection.layout(#type).bytes, sizeof(type));                                         \
         EXPECT_THAT(reflection.layout(#type).members, testing::ElementsAre(MEMBERS(type, __VA_ARGS__))); \
     } while (false)
 
 /// A push-constant block holds the struct and is as large.
-#define EXPECT_PUSH(shader, type, ...)                                \
-    EXPECT_LAYOUT(shader, type, __VA_ARGS__);                         \
+#define EXPECT_PUSH(shader, type, ...)        \
+    EXPECT_LAYOUT(shader, type, __VA_ARGS__); \
     EXPECT_EQ(reflect(spirv::shader).pushBytes, sizeof(type)) << #type
 
 TEST(SharedLayout, Cloud) {
@@ -73,8 +73,8 @@ TEST(SharedLayout, Photon) {
     EXPECT_LAYOUT(trace_comp, TraceState, cell, offset, direction, weight, depth, photon, draws, collisions, turns,
                   alive);
     EXPECT_LAYOUT(trace_comp, PhotonRecord, collector, direction, power);
-    EXPECT_LAYOUT(trace_comp, TraceCounters, events, nulls, absorbed, escaped, lost, records, reflected, transmittedDiffuse,
-                  transmittedDirect, pending, unused);
+    EXPECT_LAYOUT(trace_comp, TraceCounters, events, nulls, absorbed, escaped, lost, records, reflected,
+                  transmittedDiffuse, transmittedDirect, pending, unused);
     EXPECT_PUSH(gather_comp, GatherPush, collectors, invocations, recordCapacity);
     EXPECT_PUSH(accumulate_comp, AccumulatePush, coefficients, shift, keepSlots);
     EXPECT_PUSH(reconstruct_comp, ReconstructPush, collectors, scale, eye, voxelToWorld);

@@ -60,10 +60,10 @@ std::vector<std::uint32_t> listOf(const TileLists& tiles, int x, int y) {
 }
 
 const std::vector<View> views = {
-    {scene::Projection::perspective, 300, 170, 40.0},  {scene::Projection::perspective, 33, 18, 120.0},
-    {scene::Projection::perspective, 500, 16, 2.0},    {scene::Projection::orthographic, 250, 140, 40.0},
-    {scene::Projection::orthographic, 17, 200, 10.0},  {scene::Projection::panorama, 256, 128, 40.0},
-    {scene::Projection::panorama, 200, 150, 40.0},     {scene::Projection::panorama, 40, 20, 40.0},
+    {scene::Projection::perspective, 300, 170, 40.0}, {scene::Projection::perspective, 33, 18, 120.0},
+    {scene::Projection::perspective, 500, 16, 2.0},   {scene::Projection::orthographic, 250, 140, 40.0},
+    {scene::Projection::orthographic, 17, 200, 10.0}, {scene::Projection::panorama, 256, 128, 40.0},
+    {scene::Projection::panorama, 200, 150, 40.0},    {scene::Projection::panorama, 40, 20, 40.0},
 };
 
 TEST(TileLists, NeverMissASphere) {
