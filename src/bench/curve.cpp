@@ -5,7 +5,7 @@
 
 namespace lumulus::bench {
 
-TimeToError timeToReach(std::span<const CurvePoint> curve, double target, Beyond beyond) {
+TimeToError timeToReach(std::span<const CurvePoint> curve, double target, std::optional<double> fixedSeconds) {
     for (std::size_t i = 0; i < curve.size(); ++i) {
         const CurvePoint& here = curve[i];
         if (here.error > target) continue;
@@ -15,8 +15,9 @@ TimeToError timeToReach(std::span<const CurvePoint> curve, double target, Beyond
         const double share = std::log(before.error / target) / std::log(before.error / here.error);
         return {Reached::measured, before.seconds * std::pow(here.seconds / before.seconds, share)};
     }
-    if (curve.empty() || beyond == Beyond::unknown) return {};
-    return {Reached::extrapolated, curve.back().seconds * curve.back().error / target};
+    if (curve.empty() || !fixedSeconds) return {};
+    const CurvePoint& last = curve.back();
+    return {Reached::extrapolated, *fixedSeconds + (last.seconds - *fixedSeconds) * last.error / target};
 }
 
 }  // namespace lumulus::bench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 namespace lumulus::bench {
@@ -13,7 +14,7 @@ struct CurvePoint {
 enum class Reached {
     measured,      ///< between two points, interpolated
     atFirst,       ///< the first point is already there: the time is an upper bound
-    extrapolated,  ///< beyond the last point, if the error goes on falling as 1/time
+    extrapolated,  ///< beyond the last point, if the error goes on falling with the samples
     never,         ///< no point is there, and nothing says that longer runs would be
 };
 
@@ -22,13 +23,10 @@ struct TimeToError {
     double seconds = 0.0;
 };
 
-/// What is known of a curve beyond its last point: bias may stop it, or its error is variance alone and falls as
-/// 1/time.
-enum class Beyond { unknown, inverseTime };
-
 /// The seconds after which the error is first down to `target` (> 0). Points in order of time; between two of them the
 /// curve is straight on doubly logarithmic paper. An error of 0 or less (it came out below the noise of the reference)
-/// counts as reached at its own time.
-TimeToError timeToReach(std::span<const CurvePoint> curve, double target, Beyond beyond);
+/// counts as reached at its own time. `fixedSeconds`, given where the error is variance alone: beyond the last point it
+/// falls as 1/(time − fixedSeconds).
+TimeToError timeToReach(std::span<const CurvePoint> curve, double target, std::optional<double> fixedSeconds);
 
 }  // namespace lumulus::bench

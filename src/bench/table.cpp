@@ -19,12 +19,17 @@ struct Clock {
 
 constexpr std::array<Clock, 2> clocks{{{"without warm-up", &Row::warmSeconds}, {"whole", &Row::seconds}}};
 
-std::vector<CurvePoint> curveOf(std::span<const Row> rows, Method method, const Clock& clock) {
+/// The times of one method to reach the target. Those of the path tracer go on beyond the last point, from which its
+/// time before the first sample is known.
+TimeToError timeOf(std::span<const Row> rows, Method method, const Clock& clock, double target) {
     std::vector<CurvePoint> curve;
+    double fixed = 0.0;
     for (const Row& row : rows) {
-        if (row.method == method) curve.push_back({(row.*clock.seconds).mean, row.relMse.mean});
+        if (row.method != method) continue;
+        curve.push_back({(row.*clock.seconds).mean, row.relMse.mean});
+        fixed = (row.*clock.seconds).mean - row.warmSeconds.mean;
     }
-    return curve;
+    return timeToReach(curve, target, method == Method::pathTracer ? std::optional(fixed) : std::nullopt);
 }
 
 std::string timeText(const TimeToError& time) {
@@ -67,14 +72,13 @@ std::string tableText(std::span<const Row> rows, std::optional<double> floor) {
     text += fmt::format("\n{:<28}{:>14}{:>14}{:>10}\n", "time to reach", "render", "path tracer", "ratio");
     for (const double target : targets) {
         for (const Clock& clock : clocks) {
-            const TimeToError render = timeToReach(curveOf(rows, Method::render, clock), target, Beyond::unknown);
-            const TimeToError tracer =
-                timeToReach(curveOf(rows, Method::pathTracer, clock), target, Beyond::inverseTime);
+            const TimeToError render = timeOf(rows, Method::render, clock, target);
+            const TimeToError tracer = timeOf(rows, Method::pathTracer, clock, target);
             text += fmt::format("relMSE {:<6g} {:<14}{:>14}{:>14}{:>10}\n", target, clock.name, timeText(render),
                                 timeText(tracer), ratioText(render, tracer));
         }
     }
-    return text + "~ extrapolated as 1/time, ≤ reached before the first measurement\n";
+    return text + "~ extrapolated: error falls as 1/samples; ≤ the first measurement is there already\n";
 }
 
 }  // namespace lumulus::bench

@@ -119,7 +119,7 @@ TEST(SceneFile, SunByAngles) {
     expectNear(direction("azimuth = 0\nelevation = 0"), {0, 0, -1});
     expectNear(direction("azimuth = 90\nelevation = 0"), {1, 0, 0});
     expectNear(direction("azimuth = 17\nelevation = 90"), {0, 1, 0});
-    expectNear(direction("elevation = 40"), parse("").sun.directionTo);
+    expectNear(direction("elevation = 35"), parse("").sun.directionTo);
     expectNear(direction("direction_to = [0, -3, 4]"), {0, -0.6, 0.8});
 }
 

@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "draw/camera.h"
+#include "scene/load.h"
+#include "support/rico.h"
+#include "volume/load.h"
+
+// Every scene that ships loads, and what is meant for measuring shows enough of its cloud.
+namespace lumulus {
+namespace {
+
+const std::filesystem::path folder = std::filesystem::path(LUMULUS_SOURCE_DIR) / "configs" / "scenes";
+
+std::vector<std::filesystem::path> shipped() {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+/// The scene; where its data does not come with the sources, with the data of the tests, or else with a procedural
+/// cloud in its place.
+scene::Scene load(const std::filesystem::path& file) {
+    if (file.stem() != "disney-cloud") return scene::loadScene(file);
+    const std::optional<std::filesystem::path> data = test::findTestData("wdas_cloud_sixteenth.vdb");
+    if (!data) std::cout << "no wdas_cloud_sixteenth.vdb: a procedural cloud stands in\n";
+    const std::vector<std::string> overrides{data ? "cloud.0.vdb=" + data->string() : "cloud.0.procedural=cumulus"};
+    return scene::loadScene(file, overrides);
+}
+
+/// Optical thickness along the ray, by steps of half a voxel through the nearest voxels.
+double opticalThickness(const vdb::Volume& volume, double extinction, const Ray& ray) {
+    const glm::dmat3 toVoxel = glm::inverse(volume.toWorld.linear);
+    const glm::dvec3 origin = toVoxel * (ray.origin - volume.toWorld.translation);
+    const glm::dvec3 direction = toVoxel * ray.direction;
+    const double step = 0.5 / glm::length(direction);
+    const double length = glm::length(origin) + 2.0 * glm::length(glm::dvec3(volume.size));  // voxels, beyond the box
+    double sum = 0.0;
+    for (double t = 0.0; t * glm::length(direction) < length; t += step) {
+        const glm::ivec3 voxel = glm::ivec3(glm::floor(origin + t * direction));
+        if (glm::any(glm::lessThan(voxel, glm::ivec3(0)))) continue;
+        if (glm::any(glm::greaterThanEqual(voxel, volume.size))) continue;
+        sum += static_cast<double>(volume.density[volume.index(voxel.x, voxel.y, voxel.z)]) * step;
+    }
+    return extinction * sum;
+}
+
+/// The share of a coarse picture where the transmittance is below .999.
+double cloudShare(scene::Scene scene) {
+    scene.clouds[0].resolution = 64;
+    scene.image.height = 24 * scene.image.height / scene.image.width;
+    scene.image.width = 24;
+    const vdb::Volume volume = loadCloudVolume(scene.clouds[0], scene.preparation.memoryBudget).volume;
+    const Camera camera = makeCamera(scene.camera, scene.image, boundsOf(volume));
+    const double extinction = scene.clouds[0].extinction * scene.clouds[0].densityScale;
+    int seen = 0;
+    for (int y = 0; y < camera.height; ++y) {
+        for (int x = 0; x < camera.width; ++x) {
+            if (opticalThickness(volume, extinction, camera.ray(x + 0.5, y + 0.5)) > 1e-3) ++seen;
+        }
+    }
+    return static_cast<double>(seen) / (camera.width * camera.height);
+}
+
+TEST(ShippedScenes, AreTheOnesThatTheDocumentsName) {
+    std::set<std::string> names;
+    for (const auto& file : shipped()) names.insert(file.stem().string());
+    for (const char* name : {"cumulus", "cumulus-side-lit", "cumulus-back-lit", "cumulus-front-lit", "cumulus-low-sun",
+                             "disney-cloud", "cirrus", "stratus", "furnace", "smoke"}) {
+        EXPECT_TRUE(names.contains(name)) << name;
+    }
+}
+
+TEST(ShippedScenes, AllLoad) {
+    for (const auto& file : shipped()) {
+        const scene::Scene scene = load(file);
+        EXPECT_EQ(scene.clouds.size(), 1U) << file;
+    }
+}
+
+TEST(ShippedScenes, ShowTheCloudInThreeTenthsOfThePicture) {
+    for (const auto& file : shipped()) {
+        const scene::Scene scene = load(file);
+        EXPECT_GE(cloudShare(scene), 0.3) << file;
+    }
+}
+
+TEST(ShippedScenes, SmokeIsDarkAndTheFurnaceWhite) {
+    EXPECT_EQ(scene::loadScene(folder / "smoke.toml").clouds[0].albedo, glm::dvec3(0.9));
+    EXPECT_EQ(scene::loadScene(folder / "furnace.toml").clouds[0].albedo, glm::dvec3(1.0));
+    EXPECT_EQ(scene::loadScene(folder / "furnace.toml").sun.irradiance, glm::dvec3(0.0));
+}
+
+}  // namespace
+}  // namespace lumulus
