@@ -1,20 +1,10 @@
 #pragma once
 
-#include <volk.h>
-
-#include <cstdint>
 #include <glm/glm.hpp>
-#include <initializer_list>
-#include <span>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <vector>
 
 #include "gpu/hazards.h"
 #include "gpu/memory.h"
 #include "gpu/program.h"
-#include "gpu/timer.h"
 
 namespace lumulus::gpu {
 
@@ -30,7 +20,7 @@ struct Binding {
     Sampler sampler = Sampler::none;
 };
 
-enum class StepKind { pass, dispatch, indirect, fill, copy, barrier };
+enum class StepKind { pass, dispatch, indirect, fill, barrier };
 
 /// One recorded command, as a value that tests can look at.
 struct Step {
@@ -40,55 +30,43 @@ struct Step {
     bool operator==(const Step&) const = default;
 };
 
+struct PassTime {
+    std::string name;
+    double milliseconds = 0.0;
+};
+
 /// A command buffer: begin(), commands, submit(), wait(); then again. Resources and programs must live until wait().
 /// Every command is checked against the ones since the last barrier (HazardTracker), always.
-/// Errors: std::logic_error for a missing barrier, bindings that are not the shader's, sizes that do not fit, or calls
-/// out of order; Error where Vulkan fails.
+/// Errors: std::logic_error for a missing barrier, bindings that are not the shader's, sizes that do not fit, more
+/// than `maxPasses`, or calls out of order; Error where Vulkan fails.
 class Commands {
   public:
+    static constexpr std::uint32_t maxPasses = 1024;
+
     explicit Commands(Context& context);
     Commands(const Commands&) = delete;
-    Commands& operator=(const Commands&) = delete;
     ~Commands();
 
     /// Starts to record, after everything submitted before. What was recorded and not submitted is dropped.
     void begin();
     /// Starts a named pass: a label for debuggers and two timestamps. Ends the one before.
     void pass(const std::string& name);
-
     /// Runs `groups` workgroups. `bindings` must name all that the shader declares and nothing else.
     template <class Push>
-    void dispatch(const Program<Push>& program, std::span<const Binding> bindings,
+    void dispatch(const Program<Push>& program, const std::vector<Binding>& bindings,
                   const std::type_identity_t<Push>& push, glm::uvec3 groups) {
         record(program, bindings, &push, groups, nullptr, 0);
     }
-    template <class Push>
-    void dispatch(const Program<Push>& program, std::initializer_list<Binding> bindings,
-                  const std::type_identity_t<Push>& push, glm::uvec3 groups) {
-        record(program, {bindings.begin(), bindings.size()}, &push, groups, nullptr, 0);
-    }
     /// As dispatch; the count of groups is read from `arguments` at `offset` (three uint32, offset a multiple of 4).
     template <class Push>
-    void dispatchIndirect(const Program<Push>& program, std::span<const Binding> bindings,
+    void dispatchIndirect(const Program<Push>& program, const std::vector<Binding>& bindings,
                           const std::type_identity_t<Push>& push, const Buffer& arguments, std::uint64_t offset = 0) {
         record(program, bindings, &push, {}, &arguments, offset);
     }
-    template <class Push>
-    void dispatchIndirect(const Program<Push>& program, std::initializer_list<Binding> bindings,
-                          const std::type_identity_t<Push>& push, const Buffer& arguments, std::uint64_t offset = 0) {
-        record(program, {bindings.begin(), bindings.size()}, &push, {}, &arguments, offset);
-    }
-
     /// Sets every 32-bit word of the buffer.
     void fill(Buffer& buffer, std::uint32_t value);
-    void copy(const Buffer& from, Buffer& to, std::uint64_t bytes, std::uint64_t fromOffset = 0,
-              std::uint64_t toOffset = 0);
-    /// All texels, tightly packed, x fastest.
-    void copy(const Buffer& from, Image& to);
-    void copy(const Image& from, Buffer& to);
     /// All writes before (shader, transfer) are visible to all reads and writes after (also indirect and host).
     void barrier(const std::string& name);
-
     /// Ends the recording and hands it to the queue.
     void submit();
     /// Waits for the submitted work; afterwards host memory shows all that it wrote.
@@ -102,22 +80,18 @@ class Commands {
   private:
     enum class State { idle, recording, submitted };
 
-    void record(const ProgramBase& program, std::span<const Binding> bindings, const void* push, glm::uvec3 groups,
+    void record(const ProgramBase& program, const std::vector<Binding>& bindings, const void* push, glm::uvec3 groups,
                 const Buffer* arguments, std::uint64_t offset);
-    void checkGroups(const ProgramBase& program, glm::uvec3 groups) const;
     void add(StepKind kind, const std::string& name, std::span<const Access> accesses);
-    template <class From, class To>
-    void addCopy(const From& from, const To& to);
-    void require(State state, const char* call) const;
-    void endLabel();
+    void require(State state, const std::string& call) const;
+    void endPass();
+    void stamp();
 
     Context* context_;
-    Owned<VkCommandPool> pool_;
-    Owned<VkFence> fence_;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    CommandBuffer commands_;
+    Owned<VkQueryPool> stamps_;  ///< two for each pass
+    std::uint32_t stampCount_ = 0;
     State state_ = State::idle;
-    bool labelled_ = false;
-    Timer timer_;
     HazardTracker hazards_;
     std::vector<Step> steps_;
     std::vector<PassTime> times_;

@@ -3,49 +3,51 @@
 #include <stdexcept>
 
 #include "base/error.h"
-#include "gpu/requirements.h"
-#include "gpu/result.h"
 
 namespace lumulus::gpu {
-
-Context::LogicalDevice::~LogicalDevice() {
-    if (handle != VK_NULL_HANDLE) {
-        api.vkDestroyDevice(handle, nullptr);
-    }
-}
 
 Context::Context(const ContextOptions& options) : instance_(options.validation) {
     selectPhysicalDevice(options.device);
     createDevice();
-    createSharedObjects();
+    immediate_ = makeCommandBuffer("immediate commands");
+    VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+    const auto createSampler = [&](VkFilter filter, VkSamplerAddressMode outside, VkBorderColor border) {
+        info.magFilter = info.minFilter = filter;
+        info.addressModeU = info.addressModeV = info.addressModeW = outside;
+        info.borderColor = border;
+        return create(api_.vkCreateSampler, api_.vkDestroySampler, info, VK_OBJECT_TYPE_SAMPLER, "sampler");
+    };
+    constexpr VkSamplerAddressMode border = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
+    constexpr VkBorderColor zero = VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
+    nearest_ = createSampler(VK_FILTER_NEAREST, border, zero);
+    integer_ = createSampler(VK_FILTER_NEAREST, border, VK_BORDER_COLOR_INT_TRANSPARENT_BLACK);
+    linear_ = createSampler(VK_FILTER_LINEAR, border, zero);
+    linearClamp_ = createSampler(VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, zero);
 }
 
 Context::~Context() {
-    // no check: a lost device is idle as well
-    device_.api.vkDeviceWaitIdle(device_.handle);
+    api_.vkDeviceWaitIdle(handle());  // no check: a lost device is idle as well
 }
 
 void Context::selectPhysicalDevice(const std::string& wanted) {
     const std::vector<VkPhysicalDevice> devices = instance_.physicalDevices();
     const std::vector<DeviceInfo> infos = describeDevices(devices);
-    std::string missing;
-    std::string best;
+    std::string missing;  // of the best device
     for (const std::uint32_t index : chooseDevices(infos, wanted)) {
         const Capabilities capabilities = queryCapabilities(devices[index]);
         const std::string lack = missingRequirement(capabilities);
-        if (lack.empty()) {
-            physical_ = devices[index];
-            info_ = infos[index];
-            queueFamily_ = *capabilities.queueFamily;
-            timestampBits_ = capabilities.timestampBits;
-            return;
-        }
-        if (best.empty()) {
-            best = infos[index].name;
+        if (missing.empty()) {
             missing = lack;
+            info_ = infos[index];
         }
+        if (!lack.empty()) continue;
+        info_ = infos[index];
+        physical_ = devices[index];
+        queueFamily_ = *capabilities.queueFamily;
+        timestampBits_ = capabilities.timestampBits;
+        return;
     }
-    throw Error("the Vulkan device lacks " + missing, best,
+    throw Error("the Vulkan device lacks " + missing, info_.name,
                 "choose another device, or install mesa-vulkan-drivers to render on the CPU");
 }
 
@@ -58,105 +60,80 @@ void Context::createDevice() {
 
     Features features = requiredFeatures();
     const float priority = 1.0F;
-    VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
-    queue.queueFamilyIndex = queueFamily_;
-    queue.queueCount = 1;
-    queue.pQueuePriorities = &priority;
+    const VkDeviceQueueCreateInfo queue{
+        VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, queueFamily_, 1, &priority};
     const char* extension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
-    VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
-    info.pNext = features.chain();
+    VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, features.chain()};
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     info.enabledExtensionCount = 1;
     info.ppEnabledExtensionNames = &extension;
-    check(vkCreateDevice(physical_, &info, nullptr, &device_.handle), "vkCreateDevice");
-    volkLoadDeviceTable(&device_.api, device_.handle);
-    device_.api.vkGetDeviceQueue(device_.handle, queueFamily_, 0, &queue_);
-}
-
-void Context::createSharedObjects() {
-    const VolkDeviceTable& api = device_.api;
-    const VkPipelineCacheCreateInfo cache{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-    pipelineCache_ = create(api.vkCreatePipelineCache, api.vkDestroyPipelineCache, cache, VK_OBJECT_TYPE_PIPELINE_CACHE,
-                            "pipelines");
-    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-    pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
-    pool.queueFamilyIndex = queueFamily_;
-    immediatePool_ = create(api.vkCreateCommandPool, api.vkDestroyCommandPool, pool, VK_OBJECT_TYPE_COMMAND_POOL,
-                            "immediate commands");
-    const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    immediateFence_ = create(api.vkCreateFence, api.vkDestroyFence, fence, VK_OBJECT_TYPE_FENCE, "immediate commands");
-    for (std::size_t i = 0; i < samplerCount; ++i) {
-        samplers_[i] = create(api.vkCreateSampler, api.vkDestroySampler,
-                              samplerInfo(static_cast<Sampler>(i + 1), false), VK_OBJECT_TYPE_SAMPLER, "sampler");
-    }
-    integerSampler_ = create(api.vkCreateSampler, api.vkDestroySampler, samplerInfo(Sampler::nearest, true),
-                             VK_OBJECT_TYPE_SAMPLER, "integer sampler");
+    VkDevice device = VK_NULL_HANDLE;
+    check(vkCreateDevice(physical_, &info, nullptr, &device), "vkCreateDevice");
+    volkLoadDeviceTable(&api_, device);
+    device_.reset(device);
+    api_.vkGetDeviceQueue(device, queueFamily_, 0, &queue_);
 }
 
 VkSampler Context::sampler(Sampler kind, bool integerTexels) const {
-    if (kind == Sampler::none || (integerTexels && kind != Sampler::nearest)) {
+    if (kind == Sampler::none) return VK_NULL_HANDLE;
+    if (integerTexels && kind != Sampler::nearest)
         throw std::logic_error("no such sampler: integer texels allow only Sampler::nearest");
-    }
-    return integerTexels ? integerSampler_.get() : samplers_[static_cast<std::size_t>(kind) - 1].get();
+    if (kind == Sampler::nearest) return integerTexels ? integer_.get() : nearest_.get();
+    return kind == Sampler::linear ? linear_.get() : linearClamp_.get();
 }
 
 void Context::setName(VkObjectType type, std::uint64_t object, const std::string& name) const {
-    if (instance_.hasDebugUtils()) {
-        VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
-        info.objectType = type;
-        info.objectHandle = object;
-        info.pObjectName = name.c_str();
-        check(vkSetDebugUtilsObjectNameEXT(device_.handle, &info), "vkSetDebugUtilsObjectNameEXT");
-    }
+    const VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT, nullptr, type, object,
+                                             name.c_str()};
+    check(vkSetDebugUtilsObjectNameEXT(handle(), &info), "vkSetDebugUtilsObjectNameEXT");
 }
 
-void Context::immediately(const std::function<void(VkCommandBuffer)>& record) {
-    const VolkDeviceTable& api = device_.api;
-    check(api.vkResetCommandPool(device_.handle, immediatePool_.get(), VK_COMMAND_POOL_RESET_RELEASE_RESOURCES_BIT),
-          "vkResetCommandPool");
-    VkCommandBufferAllocateInfo allocateInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    allocateInfo.commandPool = immediatePool_.get();
-    allocateInfo.commandBufferCount = 1;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    check(api.vkAllocateCommandBuffers(device_.handle, &allocateInfo, &commands), "vkAllocateCommandBuffers");
-    VkCommandBufferBeginInfo beginInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    beginInfo.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    check(api.vkBeginCommandBuffer(commands, &beginInfo), "vkBeginCommandBuffer");
-    recordFullBarrier(commands);
-    record(commands);
-    recordFullBarrier(commands);
-    check(api.vkEndCommandBuffer(commands), "vkEndCommandBuffer");
-    submit(commands, immediateFence_.get());
-    waitFor(immediateFence_.get());
-    api.vkFreeCommandBuffers(device_.handle, immediatePool_.get(), 1, &commands);
+CommandBuffer Context::makeCommandBuffer(const std::string& name) const {
+    CommandBuffer made;
+    const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0, queueFamily_};
+    made.pool = create(api_.vkCreateCommandPool, api_.vkDestroyCommandPool, pool, VK_OBJECT_TYPE_COMMAND_POOL, name);
+    const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    made.fence = create(api_.vkCreateFence, api_.vkDestroyFence, fence, VK_OBJECT_TYPE_FENCE, name);
+    const VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, made.pool.get(),
+                                           VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+    check(api_.vkAllocateCommandBuffers(handle(), &info, &made.handle), "vkAllocateCommandBuffers");
+    return made;
 }
 
-void Context::submit(VkCommandBuffer commands, VkFence fence) const {
-    VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
-    buffer.commandBuffer = commands;
-    VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
-    info.commandBufferInfoCount = 1;
-    info.pCommandBufferInfos = &buffer;
-    check(device_.api.vkQueueSubmit2(queue_, 1, &info, fence), "vkQueueSubmit2");
+void Context::begin(const CommandBuffer& commands) const {
+    check(api_.vkResetCommandPool(handle(), commands.pool.get(), 0), "vkResetCommandPool");
+    const VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
+                                        VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    check(api_.vkBeginCommandBuffer(commands.handle, &info), "vkBeginCommandBuffer");
+    recordFullBarrier(commands.handle);
 }
 
-void Context::waitFor(VkFence fence) const {
-    const VolkDeviceTable& api = device_.api;
-    check(api.vkWaitForFences(device_.handle, 1, &fence, VK_TRUE, ~0ULL), "vkWaitForFences");
-    check(api.vkResetFences(device_.handle, 1, &fence), "vkResetFences");
+void Context::submit(const CommandBuffer& commands) const {
+    recordFullBarrier(commands.handle);
+    check(api_.vkEndCommandBuffer(commands.handle), "vkEndCommandBuffer");
+    VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands.handle;
+    check(api_.vkQueueSubmit(queue_, 1, &info, commands.fence.get()), "vkQueueSubmit");
+}
+
+void Context::wait(const CommandBuffer& commands) const {
+    VkFence fence = commands.fence.get();
+    check(api_.vkWaitForFences(handle(), 1, &fence, VK_TRUE, ~0ULL), "vkWaitForFences");
+    check(api_.vkResetFences(handle(), 1, &fence), "vkResetFences");
 }
 
 void Context::recordFullBarrier(VkCommandBuffer commands) const {
-    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT;
-    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &barrier;
-    device_.api.vkCmdPipelineBarrier2(commands, &dependency);
+    const VkMemoryBarrier2 barrier{
+        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+        .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
+        .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+    };
+    const VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO, nullptr, 0, 1, &barrier};
+    api_.vkCmdPipelineBarrier2(commands, &dependency);
 }
 
 }  // namespace lumulus::gpu

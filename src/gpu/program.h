@@ -1,17 +1,9 @@
 #pragma once
 
-#include <volk.h>
-
 #include <bit>
-#include <cstdint>
-#include <glm/glm.hpp>
 #include <span>
-#include <string>
-#include <type_traits>
-#include <vector>
 
 #include "gpu/context.h"
-#include "gpu/owned.h"
 #include "gpu/reflection.h"
 
 namespace lumulus::gpu {
@@ -35,7 +27,6 @@ class ProgramBase {
   public:
     const std::string& name() const { return name_; }
     const std::vector<BindingInfo>& bindings() const { return bindings_; }
-    glm::uvec3 workgroup() const { return workgroup_; }  ///< invocations, specialisation included
     std::uint32_t pushBytes() const { return pushBytes_; }
     VkPipeline pipeline() const { return pipeline_.get(); }
     VkPipelineLayout layout() const { return layout_.get(); }
@@ -45,14 +36,12 @@ class ProgramBase {
                 const std::vector<SpecConstant>& constants, std::uint64_t pushBytes);
 
   private:
-    void specialise(const Reflection& reflection, const std::vector<SpecConstant>& constants);
     void createLayout(Context& context);
     void createPipeline(Context& context, std::span<const std::uint32_t> spirv,
                         const std::vector<SpecConstant>& constants);
 
     std::string name_;
     std::vector<BindingInfo> bindings_;
-    glm::uvec3 workgroup_{1};
     std::uint32_t pushBytes_ = 0;
     Owned<VkDescriptorSetLayout> setLayout_;
     Owned<VkPipelineLayout> layout_;

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <glm/glm.hpp>
-#include <optional>
+#include <volk.h>
+
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,16 +9,14 @@
 
 namespace lumulus::gpu {
 
-enum class BindingKind { storageBuffer, storageImage, sampledImage };
-
 /// One resource that a shader declares in descriptor set 0.
 struct BindingInfo {
     std::string name;  ///< the instance name where the GLSL gives one, else the name of the block
     std::uint32_t binding = 0;
-    BindingKind kind = BindingKind::storageBuffer;
-    int dimensions = 0;   ///< of an image: 2 or 3
-    bool reads = true;    ///< false for `writeonly`
-    bool writes = false;  ///< false for `readonly` and for sampled images
+    VkDescriptorType kind = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;  ///< or STORAGE_IMAGE or COMBINED_IMAGE_SAMPLER
+    int dimensions = 0;                                         ///< of an image: 2 or 3
+    bool reads = true;                                          ///< false for `writeonly`
+    bool writes = false;                                        ///< false for `readonly` and for sampled images
 };
 
 struct MemberLayout {
@@ -40,12 +36,10 @@ struct StructLayout {
 
 /// What a compute shader says of itself.
 struct Reflection {
-    std::vector<BindingInfo> bindings;  ///< by number
-    std::uint64_t pushBytes = 0;        ///< size of the push-constant block, rounded as StructLayout
-    glm::uvec3 workgroup{1};            ///< before specialisation
-    std::array<std::optional<std::uint32_t>, 3> workgroupId;  ///< constant_id of local_size_{x,y,z}_id
-    std::vector<std::uint32_t> constantIds;                   ///< of all specialisation constants; an id may repeat
-    std::vector<StructLayout> structs;                        ///< blocks and every struct nested in them
+    std::vector<BindingInfo> bindings;       ///< by number
+    std::uint64_t pushBytes = 0;             ///< size of the push-constant block, rounded as StructLayout
+    std::vector<std::uint32_t> constantIds;  ///< of all specialisation constants; an id may repeat
+    std::vector<StructLayout> structs;       ///< blocks and every struct nested in them
 
     /// The struct or block of that type name. Throws std::logic_error where no binding or push constant has it.
     const StructLayout& layout(std::string_view name) const;

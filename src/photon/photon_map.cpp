@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
 #include "photon/emission.h"
@@ -54,6 +55,13 @@ double maxChannel(const glm::dvec3& v) {
 std::uint32_t invocationsFor(const gpu::Context& context, std::uint64_t photons) {
     const std::uint64_t most = context.isCpu() ? cpuInvocations : gpuInvocations;
     return static_cast<std::uint32_t>(std::min(most, (photons + 63) / 64 * 64));
+}
+
+/// Records of one invocation: as many as a round holds, fewer where few photons cannot fill them, since the sort looks
+/// at every place.
+std::uint32_t capacityFor(std::uint64_t photons, std::uint32_t invocations) {
+    const std::uint64_t wanted = std::max<std::uint64_t>(64, 64 * photons / invocations);
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, roundRecords / invocations));
 }
 
 }  // namespace
@@ -105,7 +113,7 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Cloud& preparedCl
       collectors(static_cast<std::uint32_t>(cloud.collectors.size())),
       coefficients(collectors * 3U * static_cast<std::uint32_t>(options.bands * options.bands)),
       invocations(invocationsFor(context, options.photonsPerGeneration)),
-      recordCapacity(roundRecords / invocations),
+      recordCapacity(capacityFor(options.photonsPerGeneration, invocations)),
       traceProgram(context, "trace", traceSpirv(), traceConstants(medium.tables, medium.albedo, false)),
       scanProgram(context, "scan", spirv::scan_comp),
       scatterProgram(context, "scatter", spirv::scatter_comp),
@@ -291,6 +299,7 @@ void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
         s.params.mapped<shared::TraceParams>()[0] = s.traceParams(emission, sun, unitExponent);
         resetStates(s.states.mapped<shared::TraceState>().subspan(0, s.invocations));
         do {
+            if (interrupted()) throw Error("interrupted", "", "nothing was written");
             s.traceRound();
             const shared::TraceCounters& c = s.counterBuffer.mapped<shared::TraceCounters>()[0];
             s.counters.events += c.events;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "gpu/commands.h"
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
@@ -78,6 +79,7 @@ class Layer {
         resetStates(states_.mapped<shared::TraceState>().subspan(0, lanes));
         counters_.mapped<shared::TraceCounters>()[0] = {};
         do {
+            if (interrupted()) throw Error("interrupted", "", "nothing was written");
             counters_.mapped<shared::TraceCounters>()[0].pending = 0;
             round();
         } while (counters_.mapped<shared::TraceCounters>()[0].pending > 0);

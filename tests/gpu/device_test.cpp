@@ -7,8 +7,6 @@
 
 #include "base/error.h"
 #include "gpu/context.h"
-#include "gpu/requirements.h"
-#include "gpu/result.h"
 #include "support/vulkan_fixture.h"
 
 namespace lumulus::gpu {

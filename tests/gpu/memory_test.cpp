@@ -47,7 +47,7 @@ TEST_F(MemoryTest, ImageAboveTheLimitIsAnErrorWithBothNumbers) {
 
 TEST_F(MemoryTest, RunningOutOfMemoryNamesTheResourceAndTheBytes) {
     const VkMemoryRequirements needs{context.maxAllocationBytes() + 1, 16, ~0U};
-    EXPECT_THAT([&] { Allocation(context, "photons", needs, Memory::device); },
+    EXPECT_THAT([&] { allocate(context, "photons", needs, Memory::device); },
                 ThrowsMessage<Error>(AllOf(HasSubstr("photons"), HasSubstr(std::to_string(needs.size)),
                                            HasSubstr("VK_ERROR_OUT_OF_DEVICE_MEMORY"))));
 }
@@ -106,7 +106,7 @@ TEST_F(MemoryTest, LargeVolumeGoesInSlices) {
     EXPECT_TRUE(download<float>(context, image) == values);
 }
 
-TEST_F(MemoryTest, LargePictureGoesInRows) {
+TEST_F(MemoryTest, SliceAboveTheChunkGoesWhole) {
     const std::vector<std::uint32_t> values = counting<std::uint32_t>(2050 * 2100);  // 17 MB in one slice
     Image image(context, "picture", glm::ivec2(2050, 2100), VK_FORMAT_R32_UINT);
     upload(context, image, values);
@@ -147,7 +147,6 @@ TEST_P(FormatTest, VolumeComesBackAsItWas) {
     }
     Image image(context, "volume", extent, GetParam().format);
     EXPECT_EQ(image.bytes(), bytes);
-    EXPECT_TRUE(image.canStore());
     upload(context, image, values);
     EXPECT_EQ(download<std::uint8_t>(context, image), values);
 }
@@ -155,7 +154,7 @@ TEST_P(FormatTest, VolumeComesBackAsItWas) {
 INSTANTIATE_TEST_SUITE_P(Formats, FormatTest,
                          testing::Values(RoundTrip{VK_FORMAT_R8_UNORM, 1}, RoundTrip{VK_FORMAT_R16_SFLOAT, 2},
                                          RoundTrip{VK_FORMAT_R32_SFLOAT, 4}, RoundTrip{VK_FORMAT_R16_UINT, 2},
-                                         RoundTrip{VK_FORMAT_R32_UINT, 4}, RoundTrip{VK_FORMAT_R16G16B16A16_SFLOAT, 8},
+                                         RoundTrip{VK_FORMAT_R32_UINT, 4},
                                          RoundTrip{VK_FORMAT_R32G32B32A32_SFLOAT, 16}));
 
 }  // namespace
