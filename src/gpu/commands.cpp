@@ -16,25 +16,23 @@ namespace {
 void rejectOthers(const ProgramBase& program, const std::vector<Binding>& bindings) {
     for (const Binding& binding : bindings) {
         const auto same = [&](const auto& other) { return other.name == binding.name; };
-        if (std::none_of(program.bindings().begin(), program.bindings().end(), same))
-            fail(program, binding.name, "is not in the shader");
-        if (std::count_if(bindings.begin(), bindings.end(), same) > 1) fail(program, binding.name, "is given twice");
+        if (std::ranges::none_of(program.bindings(), same)) fail(program, binding.name, "is not in the shader");
+        if (std::ranges::count_if(bindings, same) > 1) fail(program, binding.name, "is given twice");
     }
 }
 
 /// The one that fits what the shader declares.
 const Binding& findBinding(const ProgramBase& program, const std::vector<Binding>& bindings, const BindingInfo& info) {
-    const auto found = std::find_if(bindings.begin(), bindings.end(), [&](auto& b) { return b.name == info.name; });
+    const auto found = std::ranges::find(bindings, info.name, &Binding::name);
     if (found == bindings.end()) fail(program, info.name, "is missing");
     const bool isBuffer = found->buffer != nullptr;
     if (isBuffer != (info.kind == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER))
         fail(program, info.name, isBuffer ? "is an image in the shader" : "is a buffer in the shader");
     if (isBuffer) return *found;
-    if (found->image->dimensions() != info.dimensions)
-        fail(program, info.name, info.dimensions == 3 ? "needs a 3D image" : "needs a 2D image");
     const bool sampled = info.kind == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    if (sampled != (found->sampler != Sampler::none))
-        fail(program, info.name, sampled ? "needs a sampler" : "is a storage image, without a sampler");
+    if (found->image->dimensions() != info.dimensions || sampled != (found->sampler != Sampler::none))
+        fail(program, info.name,
+             fmt::format("needs a {}D image {} sampler", info.dimensions, sampled ? "with a" : "without a"));
     return *found;
 }
 
@@ -77,8 +75,8 @@ void Commands::begin() {
 
 void Commands::stamp() {
     // ALL_COMMANDS at both ends: a pass begins when the work before it is done
-    context_->api().vkCmdWriteTimestamp2(commands_.handle, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, stamps_.get(),
-                                         stampCount_++);
+    context_->api().vkCmdWriteTimestamp(commands_.handle, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, stamps_.get(),
+                                        stampCount_++);
 }
 
 void Commands::endPass() {
@@ -117,7 +115,7 @@ void Commands::record(const ProgramBase& program, const std::vector<Binding>& bi
         if (buffer != nullptr)
             buffers[i] = {buffer->handle(), 0, VK_WHOLE_SIZE};
         else
-            images[i] = {context_->sampler(sampler, image->isInteger()), image->view(), VK_IMAGE_LAYOUT_GENERAL};
+            images[i] = {context_->sampler(sampler), image->view(), VK_IMAGE_LAYOUT_GENERAL};
         writes.push_back({VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, VK_NULL_HANDLE, info.binding, 0, 1,
                           info.kind, &images[i], &buffers[i]});
         const Resource& resource = buffer != nullptr ? static_cast<const Resource&>(*buffer) : *image;

@@ -1,28 +1,23 @@
 #include "gpu/context.h"
 
-#include <stdexcept>
-
 #include "base/error.h"
 
 namespace lumulus::gpu {
 
 Context::Context(const ContextOptions& options) : instance_(options.validation) {
     selectPhysicalDevice(options.device);
-    createDevice();
+    openDevice();
     immediate_ = makeCommandBuffer("immediate commands");
-    VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    const auto createSampler = [&](VkFilter filter, VkSamplerAddressMode outside, VkBorderColor border) {
+    const auto makeSampler = [&](VkFilter filter, VkSamplerAddressMode outside) {
+        VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
         info.magFilter = info.minFilter = filter;
         info.addressModeU = info.addressModeV = info.addressModeW = outside;
-        info.borderColor = border;
+        info.borderColor = VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
         return create(api_.vkCreateSampler, api_.vkDestroySampler, info, VK_OBJECT_TYPE_SAMPLER, "sampler");
     };
-    constexpr VkSamplerAddressMode border = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
-    constexpr VkBorderColor zero = VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
-    nearest_ = createSampler(VK_FILTER_NEAREST, border, zero);
-    integer_ = createSampler(VK_FILTER_NEAREST, border, VK_BORDER_COLOR_INT_TRANSPARENT_BLACK);
-    linear_ = createSampler(VK_FILTER_LINEAR, border, zero);
-    linearClamp_ = createSampler(VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, zero);
+    samplers_ = {Owned<VkSampler>(), makeSampler(VK_FILTER_NEAREST, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER),
+                 makeSampler(VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER),
+                 makeSampler(VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE)};
 }
 
 Context::~Context() {
@@ -32,55 +27,31 @@ Context::~Context() {
 void Context::selectPhysicalDevice(const std::string& wanted) {
     const std::vector<VkPhysicalDevice> devices = instance_.physicalDevices();
     const std::vector<DeviceInfo> infos = describeDevices(devices);
-    std::string missing;  // of the best device
-    for (const std::uint32_t index : chooseDevices(infos, wanted)) {
-        const Capabilities capabilities = queryCapabilities(devices[index]);
-        const std::string lack = missingRequirement(capabilities);
-        if (missing.empty()) {
-            missing = lack;
-            info_ = infos[index];
-        }
-        if (!lack.empty()) continue;
+    const std::vector<std::uint32_t> choice = chooseDevices(infos, wanted);
+    for (const std::uint32_t index : choice) {
+        const Suitability device = assess(devices[index]);
+        if (!device.missing.empty()) continue;
         info_ = infos[index];
         physical_ = devices[index];
-        queueFamily_ = *capabilities.queueFamily;
-        timestampBits_ = capabilities.timestampBits;
+        queueFamily_ = device.queueFamily;
+        timestampBits_ = device.timestampBits;
         return;
     }
-    throw Error("the Vulkan device lacks " + missing, info_.name,
+    throw Error("the Vulkan device lacks " + assess(devices[choice.front()]).missing, infos[choice.front()].name,
                 "choose another device, or install mesa-vulkan-drivers to render on the CPU");
 }
 
-void Context::createDevice() {
+void Context::openDevice() {
     VkPhysicalDeviceMaintenance3Properties maintenance{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &maintenance, {}};
     vkGetPhysicalDeviceProperties2(physical_, &properties);
     properties_ = properties.properties;
     maxAllocationBytes_ = maintenance.maxMemoryAllocationSize;
 
-    Features features = requiredFeatures();
-    const float priority = 1.0F;
-    const VkDeviceQueueCreateInfo queue{
-        VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, queueFamily_, 1, &priority};
-    const char* extension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
-    VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, features.chain()};
-    info.queueCreateInfoCount = 1;
-    info.pQueueCreateInfos = &queue;
-    info.enabledExtensionCount = 1;
-    info.ppEnabledExtensionNames = &extension;
-    VkDevice device = VK_NULL_HANDLE;
-    check(vkCreateDevice(physical_, &info, nullptr, &device), "vkCreateDevice");
+    VkDevice device = createDevice(physical_, queueFamily_);
     volkLoadDeviceTable(&api_, device);
     device_.reset(device);
     api_.vkGetDeviceQueue(device, queueFamily_, 0, &queue_);
-}
-
-VkSampler Context::sampler(Sampler kind, bool integerTexels) const {
-    if (kind == Sampler::none) return VK_NULL_HANDLE;
-    if (integerTexels && kind != Sampler::nearest)
-        throw std::logic_error("no such sampler: integer texels allow only Sampler::nearest");
-    if (kind == Sampler::nearest) return integerTexels ? integer_.get() : nearest_.get();
-    return kind == Sampler::linear ? linear_.get() : linearClamp_.get();
 }
 
 void Context::setName(VkObjectType type, std::uint64_t object, const std::string& name) const {
@@ -125,15 +96,11 @@ void Context::wait(const CommandBuffer& commands) const {
 }
 
 void Context::recordFullBarrier(VkCommandBuffer commands) const {
-    const VkMemoryBarrier2 barrier{
-        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-        .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-        .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
-        .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
-    };
-    const VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO, nullptr, 0, 1, &barrier};
-    api_.vkCmdPipelineBarrier2(commands, &dependency);
+    const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr, VK_ACCESS_MEMORY_WRITE_BIT,
+                                  VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT};
+    api_.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                              VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0,
+                              nullptr, 0, nullptr);
 }
 
 }  // namespace lumulus::gpu

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 
 #include "gpu/device.h"
@@ -14,7 +15,7 @@ struct ContextOptions {
 /// How a shader reads an image. Coordinates run from 0 to 1 over the image.
 enum class Sampler {
     none,         ///< a storage image: imageLoad and imageStore
-    nearest,      ///< outside the image: 0. The only one for integer texels
+    nearest,      ///< outside the image: 0. The only one for integer texels, which have no outside: use texelFetch
     linear,       ///< outside the image: 0
     linearClamp,  ///< outside the image: the texel at the edge
 };
@@ -48,8 +49,8 @@ class Context {
     VkDevice handle() const { return device_.get(); }
     VkPhysicalDevice physicalDevice() const { return physical_; }
     const VolkDeviceTable& api() const { return api_; }
-    /// Null for Sampler::none. Integer texels have a nearest one of their own, for its border colour.
-    VkSampler sampler(Sampler kind, bool integerTexels) const;
+    /// Null for Sampler::none.
+    VkSampler sampler(Sampler kind) const { return samplers_[static_cast<std::size_t>(kind)].get(); }
 
     /// Makes an object of the device: `make` and `destroy` are its functions in api(), `name` is shown in messages of
     /// the validation layer and in debuggers, `bytes` is what it will take of memory, for the error.
@@ -84,8 +85,6 @@ class Context {
     /// The bookkeeping behind allocatedBytes().
     void addAllocated(std::uint64_t bytes) { allocatedBytes_ += bytes; }
     void subtractAllocated(std::uint64_t bytes) { allocatedBytes_ -= bytes; }
-    /// A number that no other resource of this context has.
-    std::uint64_t nextResourceId() { return ++lastResourceId_; }
 
   private:
     struct DestroyDevice {
@@ -94,10 +93,9 @@ class Context {
     };
 
     void selectPhysicalDevice(const std::string& wanted);
-    void createDevice();
+    void openDevice();
 
     std::atomic<std::uint64_t> allocatedBytes_ = 0;
-    std::atomic<std::uint64_t> lastResourceId_ = 0;
     Instance instance_;
     DeviceInfo info_;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
@@ -109,7 +107,7 @@ class Context {
     std::unique_ptr<VkDevice_T, DestroyDevice> device_{nullptr, DestroyDevice{&api_}};
     VkQueue queue_ = VK_NULL_HANDLE;
     CommandBuffer immediate_;
-    Owned<VkSampler> nearest_, integer_, linear_, linearClamp_;
+    std::array<Owned<VkSampler>, 4> samplers_;  ///< by Sampler
 };
 
 }  // namespace lumulus::gpu

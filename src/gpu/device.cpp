@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <array>
+#include <cctype>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "base/error.h"
 
@@ -24,12 +26,17 @@ std::string resultName(VkResult result) {
 }
 
 constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
+constexpr const char* pushDescriptors = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
 constexpr const char* driverMend = "install a Vulkan driver, such as the package mesa-vulkan-drivers";
 
-/// Whether one of the layers or extensions has that name as its `member`.
-template <class Properties, std::size_t n>
-bool contains(const std::vector<Properties>& list, char (Properties::*member)[n], std::string_view name) {
-    return std::any_of(list.begin(), list.end(), [&](const Properties& one) { return one.*member == name; });
+/// The values of a Vulkan enumeration: `call` takes a count and an array, as vkEnumerate* do after their own arguments.
+template <class T, class Call>
+std::vector<T> enumerate(const Call& call) {
+    std::uint32_t count = 0;
+    call(&count, nullptr);
+    std::vector<T> values(count);
+    call(&count, values.data());
+    return values;
 }
 
 VkInstance createInstance(bool validation, const VkDebugUtilsMessengerCreateInfoEXT& messenger) {
@@ -48,25 +55,31 @@ VkInstance createInstance(bool validation, const VkDebugUtilsMessengerCreateInfo
     VkInstance instance = VK_NULL_HANDLE;
     const VkResult result = vkCreateInstance(&info, nullptr, &instance);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) throw Error("no Vulkan driver", "Vulkan", driverMend);
+    if (result == VK_ERROR_LAYER_NOT_PRESENT)
+        throw Error("the Vulkan validation layer is missing", validationLayer,
+                    "install the package vulkan-validationlayers, or run without validation");
     check(result, "vkCreateInstance");
     volkLoadInstanceOnly(instance);
     return instance;
 }
 
-struct Feature {
-    const char* name;
-    VkBool32& (*in)(Features&);
-};
+/// A chain of feature structs, for queries and for device creation.
+struct Features {
+    Features() = default;
+    Features(const Features&) = delete;  // the structs point at each other
 
-constexpr Feature neededFeatures[] = {
-    {"shaderInt64", [](Features& f) -> VkBool32& { return f.core.features.shaderInt64; }},
-    {"shaderStorageImageExtendedFormats",
-     [](Features& f) -> VkBool32& { return f.core.features.shaderStorageImageExtendedFormats; }},
-    {"scalarBlockLayout", [](Features& f) -> VkBool32& { return f.v12.scalarBlockLayout; }},
-    {"shaderBufferInt64Atomics", [](Features& f) -> VkBool32& { return f.v12.shaderBufferInt64Atomics; }},
-    {"synchronization2", [](Features& f) -> VkBool32& { return f.v13.synchronization2; }},
-    // local_size_x_id as glslang writes it
-    {"maintenance4", [](Features& f) -> VkBool32& { return f.v13.maintenance4; }},
+    /// The features that Lumulus needs, by name.
+    std::array<std::pair<const char*, VkBool32*>, 5> needed() {
+        return {{{"shaderInt64", &core.features.shaderInt64},
+                 {"shaderStorageImageExtendedFormats", &core.features.shaderStorageImageExtendedFormats},
+                 {"scalarBlockLayout", &v12.scalarBlockLayout},
+                 {"shaderBufferInt64Atomics", &v12.shaderBufferInt64Atomics},
+                 {"maintenance4", &v13.maintenance4}}};  // for local_size_x_id as glslang writes it
+    }
+
+    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &v13};
+    VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12, {}};
 };
 
 /// By VkPhysicalDeviceType.
@@ -81,35 +94,26 @@ std::uint64_t localHeapBytes(VkPhysicalDevice device) {
     return bytes;
 }
 
-std::string lowerCase(std::string text) {
-    for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return text;
-}
-
 std::size_t rank(const DeviceInfo& device) {
     return std::string_view("discrete integrated virtual cpu").find(device.type);
 }
 
 /// An empty wish allows all; a number only the index, even where a name contains it.
 bool allows(const std::string& wanted, const DeviceInfo& device) {
-    std::uint32_t index = 0;
-    const char* end = wanted.data() + wanted.size();
-    const auto [stop, error] = std::from_chars(wanted.data(), end, index);
-    if (error == std::errc() && stop == end) return device.index == index;
-    return lowerCase(device.name).find(lowerCase(wanted)) != std::string::npos;
+    if (wanted.find_first_not_of("0123456789") == std::string::npos)
+        return wanted.empty() || wanted == std::to_string(device.index);
+    const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+    return !std::ranges::search(device.name, wanted, same).empty();
 }
 
-std::string firstMissingFormat(VkPhysicalDevice device) {
-    for (const TexelFormat& use : texelFormats) {
+/// All else that Image does with its formats, Vulkan promises (with shaderStorageImageExtendedFormats).
+bool filtersWideFloats(VkPhysicalDevice device) {
+    const VkFormat formats[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT};
+    return std::ranges::all_of(formats, [&](VkFormat format) {
         VkFormatProperties properties{};
-        vkGetPhysicalDeviceFormatProperties(device, use.format, &properties);
-        const VkFormatFeatureFlags offered = properties.optimalTilingFeatures;
-        if ((offered & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT) == 0)
-            return std::string("storage images of format ") + use.name;
-        if (!use.integer && (offered & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) == 0)
-            return std::string("linear filtering of format ") + use.name;
-    }
-    return "";
+        vkGetPhysicalDeviceFormatProperties(device, format, &properties);
+        return (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT) != 0;
+    });
 }
 
 }  // namespace
@@ -131,11 +135,6 @@ Instance::Instance(bool validation) {
     if (volkInitialize() != VK_SUCCESS)
         throw Error("the Vulkan loader is missing", "libvulkan.so.1",
                     "install it (package libvulkan1) and a driver, such as mesa-vulkan-drivers");
-    const auto layers =
-        enumerate<VkLayerProperties>(vkEnumerateInstanceLayerProperties, "vkEnumerateInstanceLayerProperties");
-    if (validation && !contains(layers, &VkLayerProperties::layerName, validationLayer))
-        throw Error("the Vulkan validation layer is missing", validationLayer,
-                    "install the package vulkan-validationlayers, or run without validation");
     VkDebugUtilsMessengerCreateInfoEXT messenger{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     messenger.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
@@ -166,7 +165,7 @@ std::vector<std::string> Instance::messages() const {
 
 std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
     auto devices = enumerate<VkPhysicalDevice>(
-        [&](auto... out) { return vkEnumeratePhysicalDevices(handle_.get(), out...); }, "vkEnumeratePhysicalDevices");
+        [&](auto... out) { check(vkEnumeratePhysicalDevices(handle_.get(), out...), "vkEnumeratePhysicalDevices"); });
     if (devices.empty()) throw Error("no Vulkan device", "Vulkan", driverMend);
     return devices;
 }
@@ -203,58 +202,43 @@ std::vector<std::uint32_t> chooseDevices(const std::vector<DeviceInfo>& devices,
     }
     if (fitting.empty())
         throw InputError(fmt::format("no Vulkan device \"{}\"", wanted), "device", "choose from " + listed);
-    std::stable_sort(fitting.begin(), fitting.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return rank(devices[a]) < rank(devices[b]); });
+    std::ranges::stable_sort(fitting, {}, [&](std::uint32_t index) { return rank(devices[index]); });
     return fitting;
 }
 
-VkPhysicalDeviceFeatures2* Features::chain() {
-    v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-    v12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-    v12.pNext = &v13;
-    core.pNext = &v12;
-    return &core;
-}
-
-Capabilities queryCapabilities(VkPhysicalDevice device) {
+Suitability assess(VkPhysicalDevice device) {
     VkPhysicalDeviceProperties properties{};
     vkGetPhysicalDeviceProperties(device, &properties);
-    Capabilities capabilities;
-    capabilities.apiVersion = properties.apiVersion;
-    if (properties.apiVersion >= VK_API_VERSION_1_3)  // an older device does not know the structs of the chain
-        vkGetPhysicalDeviceFeatures2(device, capabilities.features.chain());
-    const auto extensions = enumerate<VkExtensionProperties>(
-        [&](auto... out) { return vkEnumerateDeviceExtensionProperties(device, nullptr, out...); },
-        "vkEnumerateDeviceExtensionProperties");
-    capabilities.pushDescriptors =
-        contains(extensions, &VkExtensionProperties::extensionName, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
-    capabilities.missingFormat = firstMissingFormat(device);
-    std::uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-    for (std::uint32_t i = 0; i < count && !capabilities.queueFamily; ++i) {
-        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0 || families[i].timestampValidBits == 0) continue;
-        capabilities.queueFamily = i;
-        capabilities.timestampBits = families[i].timestampValidBits;
-    }
-    return capabilities;
+    if (properties.apiVersion < VK_API_VERSION_1_3) return {"Vulkan 1.3"};  // nor would it know the structs of Features
+    Features offered;
+    vkGetPhysicalDeviceFeatures2(device, &offered.core);
+    for (const auto& [name, flag] : offered.needed())
+        if (*flag == VK_FALSE) return {name};
+    const auto extensions = enumerate<VkExtensionProperties>([&](auto... out) {
+        check(vkEnumerateDeviceExtensionProperties(device, nullptr, out...), "vkEnumerateDeviceExtensionProperties");
+    });
+    const auto named = [](const auto& one) { return std::string_view(one.extensionName) == pushDescriptors; };
+    if (std::ranges::none_of(extensions, named)) return {pushDescriptors};
+    if (!filtersWideFloats(device)) return {"linear filtering of 32-bit floats"};
+    const auto families = enumerate<VkQueueFamilyProperties>(
+        [&](auto... out) { vkGetPhysicalDeviceQueueFamilyProperties(device, out...); });
+    for (std::uint32_t i = 0; i < families.size(); ++i)
+        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0 && families[i].timestampValidBits > 0)
+            return {"", i, families[i].timestampValidBits};
+    return {"a compute queue with timestamps"};
 }
 
-std::string missingRequirement(const Capabilities& capabilities) {
-    if (capabilities.apiVersion < VK_API_VERSION_1_3) return "Vulkan 1.3";
-    Features offered = capabilities.features;
-    for (const Feature& feature : neededFeatures)
-        if (feature.in(offered) == VK_FALSE) return feature.name;
-    if (!capabilities.pushDescriptors) return VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
-    if (!capabilities.queueFamily) return "a compute queue with timestamps";
-    return capabilities.missingFormat;
-}
-
-Features requiredFeatures() {
+VkDevice createDevice(VkPhysicalDevice device, std::uint32_t queueFamily) {
     Features features;
-    for (const Feature& feature : neededFeatures) feature.in(features) = VK_TRUE;
-    return features;
+    for (const auto& [name, flag] : features.needed()) *flag = VK_TRUE;
+    const float priority = 1.0F;
+    const VkDeviceQueueCreateInfo queue{
+        VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, queueFamily, 1, &priority};
+    const VkDeviceCreateInfo info{
+        VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core, 0, 1, &queue, 0, nullptr, 1, &pushDescriptors};
+    VkDevice created = VK_NULL_HANDLE;
+    check(vkCreateDevice(device, &info, nullptr, &created), "vkCreateDevice");
+    return created;
 }
 
 }  // namespace lumulus::gpu

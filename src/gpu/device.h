@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -16,16 +15,6 @@ void check(VkResult result, const char* call);
 
 /// As check(), for a call that takes memory: the Error says which resource asked for how many bytes.
 void checkMemory(VkResult result, const char* call, const std::string& resource, std::uint64_t bytes);
-
-/// The values of a Vulkan enumeration: `call` takes a count and an array, as vkEnumerate* do after their own arguments.
-template <class T, class Call>
-std::vector<T> enumerate(const Call& call, const char* name) {
-    std::uint32_t count = 0;
-    check(call(&count, nullptr), name);
-    std::vector<T> values(count);
-    check(call(&count, values.data()), name);
-    return values;
-}
 
 template <class T>
 struct Destroy {
@@ -87,45 +76,18 @@ std::vector<DeviceInfo> listDevices();
 /// Errors: InputError naming the devices there are, where none fits.
 std::vector<std::uint32_t> chooseDevices(const std::vector<DeviceInfo>& devices, const std::string& wanted);
 
-/// A texel format that Lumulus uses. A device must store to all of them and filter all but the integers.
-struct TexelFormat {
-    VkFormat format;
-    const char* name;
-    std::uint64_t bytes;
-    bool integer;
-};
-inline constexpr TexelFormat texelFormats[] = {
-    {VK_FORMAT_R8_UNORM, "R8_UNORM", 1, false}, {VK_FORMAT_R16_SFLOAT, "R16_SFLOAT", 2, false},
-    {VK_FORMAT_R16_UINT, "R16_UINT", 2, true},  {VK_FORMAT_R32_SFLOAT, "R32_SFLOAT", 4, false},
-    {VK_FORMAT_R32_UINT, "R32_UINT", 4, true},  {VK_FORMAT_R32G32B32A32_SFLOAT, "R32G32B32A32_SFLOAT", 16, false},
-};
-
-/// The chain of feature structs that Lumulus looks at, for queries and for device creation.
-struct Features {
-    VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, nullptr, {}};
-    VkPhysicalDeviceVulkan12Features v12{};
-    VkPhysicalDeviceVulkan13Features v13{};
-
-    /// Links the structs by their present addresses; the result is valid until this value moves.
-    VkPhysicalDeviceFeatures2* chain();
-};
-
-/// What a device offers of the things that Lumulus needs.
-struct Capabilities {
-    std::uint32_t apiVersion = 0;
-    bool pushDescriptors = false;
-    std::optional<std::uint32_t> queueFamily;  ///< computes, and has timestamps
+/// Whether Lumulus can use a device, and what of it.
+struct Suitability {
+    std::string missing;            ///< the first thing that Lumulus needs and the device lacks; empty: usable
+    std::uint32_t queueFamily = 0;  ///< computes, and has timestamps
     std::uint32_t timestampBits = 0;
-    std::string missingFormat;  ///< the first use of a texel format that the device lacks
-    Features features;
 };
 
-Capabilities queryCapabilities(VkPhysicalDevice device);
+/// Errors: Error where Vulkan fails.
+Suitability assess(VkPhysicalDevice device);
 
-/// The name of the first thing that Lumulus needs and the device lacks; empty for a usable device.
-std::string missingRequirement(const Capabilities& capabilities);
-
-/// The features that Lumulus needs, switched on.
-Features requiredFeatures();
+/// A device with the features that Lumulus needs and one queue, of that family. It must be suitable.
+/// Errors: Error where Vulkan fails. The caller destroys it.
+VkDevice createDevice(VkPhysicalDevice device, std::uint32_t queueFamily);
 
 }  // namespace lumulus::gpu

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <stdexcept>
 #include <string>
 
 namespace lumulus::gpu {
@@ -20,7 +21,21 @@ struct Access {
 class HazardTracker {
   public:
     /// Throws std::logic_error "missing barrier: <command> reads <resource> written by <other>" and the like.
-    void use(const std::string& command, std::span<const Access> accesses);
+    void use(const std::string& command, std::span<const Access> accesses) {
+        for (const Access& access : accesses) {
+            const Users& users = users_[access.resource];
+            const std::string use =
+                "missing barrier: " + command + (access.reads ? " reads " : " writes ") + access.name;
+            if (!users.writer.empty()) throw std::logic_error(use + " written by " + users.writer);
+            if (access.writes && !users.reader.empty()) throw std::logic_error(use + " read by " + users.reader);
+        }
+        // only now, so that a command may use one resource twice
+        for (const Access& access : accesses) {
+            Users& users = users_[access.resource];
+            if (access.reads) users.reader = command;
+            if (access.writes) users.writer = command;
+        }
+    }
     void barrier() { users_.clear(); }
 
   private:

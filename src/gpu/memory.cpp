@@ -24,9 +24,15 @@ std::uint32_t findMemoryType(VkPhysicalDevice device, std::uint32_t allowed, Mem
     throw std::logic_error("Vulkan promises a memory type for every buffer and image");
 }
 
-const TexelFormat& texelFormat(VkFormat format) {
-    for (const TexelFormat& known : texelFormats)
-        if (known.format == format) return known;
+/// The formats that Lumulus uses, with the bytes of a texel.
+constexpr std::pair<VkFormat, std::uint64_t> texelSizes[] = {
+    {VK_FORMAT_R8_UNORM, 1},   {VK_FORMAT_R16_SFLOAT, 2}, {VK_FORMAT_R16_UINT, 2},
+    {VK_FORMAT_R32_SFLOAT, 4}, {VK_FORMAT_R32_UINT, 4},   {VK_FORMAT_R32G32B32A32_SFLOAT, 16},
+};
+
+std::uint64_t texelBytes(VkFormat format) {
+    for (const auto& [known, bytes] : texelSizes)
+        if (known == format) return bytes;
     throw std::logic_error(fmt::format("Lumulus does not use VkFormat {}", static_cast<int>(format)));
 }
 
@@ -60,25 +66,16 @@ VkBufferImageCopy slices(const Image& image, std::uint64_t offset, std::uint64_t
     return region;
 }
 
-/// `copy` records the copy of so many bytes at an offset, from the staging buffer.
-template <class Copy>
-void uploadPieces(Context& context, std::span<const std::byte> bytes, std::uint64_t most, const Copy& copy) {
+/// `copy` records the copy of so many bytes at an offset, from the staging buffer (const bytes) or to it.
+template <class Byte, class Copy>
+void copyPieces(Context& context, std::span<Byte> bytes, std::uint64_t most, const Copy& copy) {
     const Buffer staging(context, "staging", std::min<std::uint64_t>(bytes.size(), most), Memory::host);
+    std::byte* mapped = staging.mapped<std::byte>().data();
     for (std::uint64_t offset = 0; offset < bytes.size(); offset += most) {
         const auto piece = bytes.subspan(offset, std::min<std::uint64_t>(most, bytes.size() - offset));
-        std::memcpy(staging.mapped<std::byte>().data(), piece.data(), piece.size());
+        if constexpr (std::is_const_v<Byte>) std::memcpy(mapped, piece.data(), piece.size());
         context.immediately([&](VkCommandBuffer commands) { copy(commands, staging.handle(), offset, piece.size()); });
-    }
-}
-
-/// `copy` records the copy of so many bytes at an offset, to the staging buffer.
-template <class Copy>
-void downloadPieces(Context& context, std::span<std::byte> bytes, std::uint64_t most, const Copy& copy) {
-    const Buffer staging(context, "staging", std::min<std::uint64_t>(bytes.size(), most), Memory::host);
-    for (std::uint64_t offset = 0; offset < bytes.size(); offset += most) {
-        const auto piece = bytes.subspan(offset, std::min<std::uint64_t>(most, bytes.size() - offset));
-        context.immediately([&](VkCommandBuffer commands) { copy(commands, staging.handle(), offset, piece.size()); });
-        std::memcpy(piece.data(), staging.mapped<std::byte>().data(), piece.size());
+        if constexpr (!std::is_const_v<Byte>) std::memcpy(piece.data(), mapped, piece.size());
     }
 }
 
@@ -87,18 +84,16 @@ void downloadPieces(Context& context, std::span<std::byte> bytes, std::uint64_t 
 Allocation allocate(Context& context, const std::string& resource, const VkMemoryRequirements& needs, Memory where) {
     const std::uint32_t type = findMemoryType(context.physicalDevice(), needs.memoryTypeBits, where);
     const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size, type};
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    const VkResult result = needs.size > context.maxAllocationBytes()
-                                ? VK_ERROR_OUT_OF_DEVICE_MEMORY
-                                : context.api().vkAllocateMemory(context.handle(), &info, nullptr, &memory);
-    checkMemory(result, "vkAllocateMemory", resource, needs.size);
+    const bool fits = needs.size <= context.maxAllocationBytes();  // some drivers take more, and fail when it is used
+    checkMemory(fits ? VK_SUCCESS : VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkAllocateMemory", resource, needs.size);
+    Owned<VkDeviceMemory> memory = context.create(context.api().vkAllocateMemory, context.api().vkFreeMemory, info,
+                                                  VK_OBJECT_TYPE_DEVICE_MEMORY, resource, needs.size);
     context.addAllocated(needs.size);
-    context.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<std::uint64_t>(memory), resource);
-    return {memory, {&context, needs.size}};
+    return {memory.release(), {&context, needs.size}};
 }
 
 Buffer::Buffer(Context& context, std::string name, std::uint64_t bytes, Memory where)
-    : Resource(context, std::move(name), bytes == 0 ? 16 : bytes) {
+    : Resource(std::move(name), bytes == 0 ? 16 : bytes) {
     const std::uint64_t limit = context.limits().maxStorageBufferRange;
     if (bytes_ > limit)
         throw Error(fmt::format("a buffer of {} bytes is above the device's limit of {}", bytes_, limit), name_,
@@ -119,16 +114,16 @@ Buffer::Buffer(Context& context, std::string name, std::uint64_t bytes, Memory w
 }
 
 Image::Image(Context& context, std::string name, glm::ivec2 extent, VkFormat format)
-    : Image(context, std::move(name), glm::ivec3(extent, 1), 2, texelFormat(format)) {}
+    : Image(context, std::move(name), glm::ivec3(extent, 1), 2, format) {}
 
 Image::Image(Context& context, std::string name, glm::ivec3 extent, VkFormat format)
-    : Image(context, std::move(name), extent, 3, texelFormat(format)) {}
+    : Image(context, std::move(name), extent, 3, format) {}
 
-Image::Image(Context& context, std::string name, glm::ivec3 extent, int dimensions, const TexelFormat& texel)
-    : Resource(context, name, texelCount(extent, name) * texel.bytes),
+Image::Image(Context& context, std::string name, glm::ivec3 extent, int dimensions, VkFormat format)
+    : Resource(name, texelCount(extent, name) * texelBytes(format)),
       extent_(extent),
       dimensions_(dimensions),
-      texel_(&texel) {
+      format_(format) {
     const glm::uvec3 size(extent);
     const VkPhysicalDeviceLimits& limits = context.limits();
     const std::uint32_t side = dimensions == 3 ? limits.maxImageDimension3D : limits.maxImageDimension2D;
@@ -138,7 +133,7 @@ Image::Image(Context& context, std::string name, glm::ivec3 extent, int dimensio
                     name_, "use a coarser cloud or another device");
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     info.imageType = dimensions == 3 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
-    info.format = texel.format;
+    info.format = format;
     info.extent = {size.x, size.y, size.z};
     info.mipLevels = info.arrayLayers = 1;
     info.samples = VK_SAMPLE_COUNT_1_BIT;
@@ -152,25 +147,22 @@ Image::Image(Context& context, std::string name, glm::ivec3 extent, int dimensio
     check(api.vkBindImageMemory(context.handle(), handle(), allocation_.get(), 0), "vkBindImageMemory");
     const VkImageViewType type = dimensions == 3 ? VK_IMAGE_VIEW_TYPE_3D : VK_IMAGE_VIEW_TYPE_2D;
     const VkImageViewCreateInfo viewInfo{
-        VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, nullptr, 0, handle(), type, format(), {}, allOfIt};
+        VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, nullptr, 0, handle(), type, format, {}, allOfIt};
     view_ = context.create(api.vkCreateImageView, api.vkDestroyImageView, viewInfo, VK_OBJECT_TYPE_IMAGE_VIEW, name_);
     context.immediately([&](VkCommandBuffer commands) {
-        VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-        barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-        barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+        VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
+        barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
         barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
         barrier.image = handle();
         barrier.subresourceRange = allOfIt;
-        VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-        dependency.imageMemoryBarrierCount = 1;
-        dependency.pImageMemoryBarriers = &barrier;
-        api.vkCmdPipelineBarrier2(commands, &dependency);
+        constexpr VkPipelineStageFlags all = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+        api.vkCmdPipelineBarrier(commands, all, all, 0, 0, nullptr, 0, nullptr, 1, &barrier);
     });
 }
 
 void uploadBytes(Context& context, Buffer& to, std::span<const std::byte> bytes) {
     requireSize(bytes.size() <= to.bytes(), to, bytes.size());
-    uploadPieces(context, bytes, stagingBytes, [&](auto commands, auto staging, auto offset, auto count) {
+    copyPieces(context, bytes, stagingBytes, [&](auto commands, auto staging, auto offset, auto count) {
         const VkBufferCopy region{0, offset, count};
         context.api().vkCmdCopyBuffer(commands, staging, to.handle(), 1, &region);
     });
@@ -178,7 +170,7 @@ void uploadBytes(Context& context, Buffer& to, std::span<const std::byte> bytes)
 
 void downloadBytes(Context& context, const Buffer& from, std::span<std::byte> bytes) {
     requireSize(bytes.size() <= from.bytes(), from, bytes.size());
-    downloadPieces(context, bytes, stagingBytes, [&](auto commands, auto staging, auto offset, auto count) {
+    copyPieces(context, bytes, stagingBytes, [&](auto commands, auto staging, auto offset, auto count) {
         const VkBufferCopy region{offset, 0, count};
         context.api().vkCmdCopyBuffer(commands, from.handle(), staging, 1, &region);
     });
@@ -186,7 +178,7 @@ void downloadBytes(Context& context, const Buffer& from, std::span<std::byte> by
 
 void uploadBytes(Context& context, Image& to, std::span<const std::byte> bytes) {
     requireSize(bytes.size() == to.bytes(), to, bytes.size());
-    uploadPieces(context, bytes, pieceBytes(to), [&](auto commands, auto staging, auto offset, auto count) {
+    copyPieces(context, bytes, pieceBytes(to), [&](auto commands, auto staging, auto offset, auto count) {
         const VkBufferImageCopy region = slices(to, offset, count);
         context.api().vkCmdCopyBufferToImage(commands, staging, to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
     });
@@ -194,7 +186,7 @@ void uploadBytes(Context& context, Image& to, std::span<const std::byte> bytes) 
 
 void downloadBytes(Context& context, const Image& from, std::span<std::byte> bytes) {
     requireSize(bytes.size() == from.bytes(), from, bytes.size());
-    downloadPieces(context, bytes, pieceBytes(from), [&](auto commands, auto staging, auto offset, auto count) {
+    copyPieces(context, bytes, pieceBytes(from), [&](auto commands, auto staging, auto offset, auto count) {
         const VkBufferImageCopy region = slices(from, offset, count);
         context.api().vkCmdCopyImageToBuffer(commands, from.handle(), VK_IMAGE_LAYOUT_GENERAL, staging, 1, &region);
     });

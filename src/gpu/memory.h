@@ -35,15 +35,14 @@ Allocation allocate(Context& context, const std::string& resource, const VkMemor
 class Resource {
   public:
     const std::string& name() const { return name_; }
-    std::uint64_t id() const { return id_; }        ///< unlike any other resource of the context
+    /// Unlike that of any other resource that lives: each has memory of its own.
+    std::uint64_t id() const { return reinterpret_cast<std::uint64_t>(allocation_.get()); }
     std::uint64_t bytes() const { return bytes_; }  ///< of an image: all texels, tightly packed, x fastest
 
   protected:
-    Resource(Context& context, std::string name, std::uint64_t bytes)
-        : name_(std::move(name)), id_(context.nextResourceId()), bytes_(bytes) {}
+    Resource(std::string name, std::uint64_t bytes) : name_(std::move(name)), bytes_(bytes) {}
 
     std::string name_;
-    std::uint64_t id_;
     std::uint64_t bytes_;
     Allocation allocation_;  // outlives what is bound to it
 };
@@ -74,24 +73,22 @@ class Buffer : public Resource {
 class Image : public Resource {
   public:
     /// Errors: Error where the extent is above the device's limit or memory runs out; std::logic_error for no texels
-    /// and for a format that is not in texelFormats.
+    /// and for a format that Lumulus does not use.
     Image(Context& context, std::string name, glm::ivec2 extent, VkFormat format);
     Image(Context& context, std::string name, glm::ivec3 extent, VkFormat format);
 
     VkImage handle() const { return image_.get(); }
     VkImageView view() const { return view_.get(); }
-    VkFormat format() const { return texel_->format; }
-    std::uint64_t texelBytes() const { return texel_->bytes; }
-    bool isInteger() const { return texel_->integer; }  ///< read by usampler or isampler, and never filtered
-    glm::ivec3 extent() const { return extent_; }       ///< z is 1 for a picture
-    int dimensions() const { return dimensions_; }      ///< 2 or 3
+    VkFormat format() const { return format_; }
+    glm::ivec3 extent() const { return extent_; }   ///< z is 1 for a picture
+    int dimensions() const { return dimensions_; }  ///< 2 or 3
 
   private:
-    Image(Context& context, std::string name, glm::ivec3 extent, int dimensions, const TexelFormat& texel);
+    Image(Context& context, std::string name, glm::ivec3 extent, int dimensions, VkFormat format);
 
     glm::ivec3 extent_;
     int dimensions_;
-    const TexelFormat* texel_;
+    VkFormat format_;
     Owned<VkImage> image_;
     Owned<VkImageView> view_;
 };

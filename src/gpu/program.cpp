@@ -3,21 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 
 namespace lumulus::gpu {
 
 ProgramBase::ProgramBase(Context& context, std::string name, std::span<const std::uint32_t> spirv,
-                         const std::vector<SpecConstant>& constants, std::uint64_t pushBytes)
-    : name_(std::move(name)), pushBytes_(static_cast<std::uint32_t>(pushBytes)) {
+                         const std::vector<SpecConstant>& constants, std::uint32_t pushBytes,
+                         std::uint32_t pushAlignment)
+    : name_(std::move(name)), pushBytes_(pushBytes) {
     const Reflection reflection = reflect(spirv);
     bindings_ = reflection.bindings;
-    if (reflection.pushBytes != pushBytes)
+    const std::uint64_t shaderBytes = (reflection.pushBytes + pushAlignment - 1) / pushAlignment * pushAlignment;
+    if (shaderBytes != pushBytes)
         throw std::logic_error(fmt::format("{}: the push constants have {} bytes in C++ and {} in the shader", name_,
-                                           pushBytes, reflection.pushBytes));
-    const std::vector<std::uint32_t>& known = reflection.constantIds;
+                                           pushBytes, shaderBytes));
     for (const SpecConstant& constant : constants)
-        if (std::find(known.begin(), known.end(), constant.id) == known.end())
+        if (std::ranges::count(reflection.constantIds, constant.id) == 0)
             throw std::logic_error(fmt::format("{}: the shader has no constant_id {}", name_, constant.id));
     createLayout(context);
     createPipeline(context, spirv, constants);
@@ -49,13 +51,12 @@ void ProgramBase::createPipeline(Context& context, std::span<const std::uint32_t
     const Owned<VkShaderModule> module = context.create(api.vkCreateShaderModule, api.vkDestroyShaderModule, moduleInfo,
                                                         VK_OBJECT_TYPE_SHADER_MODULE, name_);
     std::vector<VkSpecializationMapEntry> entries;
-    std::vector<std::uint32_t> values;
     for (const SpecConstant& constant : constants) {
-        entries.push_back({constant.id, static_cast<std::uint32_t>(values.size() * 4), 4});
-        values.push_back(constant.value);
+        const std::size_t offset = entries.size() * sizeof(SpecConstant) + offsetof(SpecConstant, value);
+        entries.push_back({constant.id, static_cast<std::uint32_t>(offset), sizeof(constant.value)});
     }
     const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()), entries.data(),
-                                              values.size() * 4, values.data()};
+                                              constants.size() * sizeof(SpecConstant), constants.data()};
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.layout = layout_.get();
     info.stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,

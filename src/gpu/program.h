@@ -33,7 +33,7 @@ class ProgramBase {
 
   protected:
     ProgramBase(Context& context, std::string name, std::span<const std::uint32_t> spirv,
-                const std::vector<SpecConstant>& constants, std::uint64_t pushBytes);
+                const std::vector<SpecConstant>& constants, std::uint32_t pushBytes, std::uint32_t pushAlignment);
 
   private:
     void createLayout(Context& context);
@@ -57,7 +57,8 @@ class Program : public ProgramBase {
   public:
     Program(Context& context, std::string name, std::span<const std::uint32_t> spirv,
             const std::vector<SpecConstant>& constants = {})
-        : ProgramBase(context, std::move(name), spirv, constants, std::is_empty_v<Push> ? 0 : sizeof(Push)) {}
+        : ProgramBase(context, std::move(name), spirv, constants, std::is_empty_v<Push> ? 0 : sizeof(Push),
+                      alignof(Push)) {}
 };
 
 }  // namespace lumulus::gpu

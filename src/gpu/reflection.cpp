@@ -1,7 +1,5 @@
 #include "gpu/reflection.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <spirv_cross.hpp>
 #include <stdexcept>
@@ -34,26 +32,6 @@ BindingInfo readBinding(const Compiler& compiler, const spirv_cross::Resource& r
     return info;
 }
 
-/// Adds the structs nested in it, then the struct (again where bindings share it); returns the alignment in scalar
-/// layout.
-std::uint64_t readStruct(const Compiler& compiler, spirv_cross::TypeID id, std::vector<StructLayout>& structs) {
-    const spirv_cross::SPIRType& type = compiler.get_type(id);
-    StructLayout layout{.name = compiler.get_name(id)};
-    std::uint64_t alignment = 1;
-    for (std::uint32_t i = 0; i < type.member_types.size(); ++i) {
-        const spirv_cross::SPIRType& member = compiler.get_type(type.member_types[i]);
-        const bool nested = member.basetype == spirv_cross::SPIRType::Struct;
-        alignment =
-            std::max(alignment, nested ? readStruct(compiler, member.self, structs) : std::uint64_t{member.width / 8});
-        layout.members.push_back({compiler.get_member_name(id, i), compiler.type_struct_member_offset(type, i),
-                                  compiler.get_declared_struct_member_size(type, i)});
-    }
-    const MemberLayout& last = layout.members.back();
-    layout.bytes = (last.offset + last.bytes + alignment - 1) / alignment * alignment;
-    structs.push_back(std::move(layout));
-    return alignment;
-}
-
 Reflection read(const Compiler& compiler) {
     const spirv_cross::ShaderResources resources = compiler.get_shader_resources();
     require(resources.uniform_buffers.empty() && resources.separate_images.empty() &&
@@ -61,33 +39,23 @@ Reflection read(const Compiler& compiler) {
             "uniform blocks and separate samplers are not used here");
     Reflection result;
     std::vector<BindingInfo>& bindings = result.bindings;
-    for (const auto& buffer : resources.storage_buffers) {
+    for (const auto& buffer : resources.storage_buffers)
         bindings.push_back(readBinding(compiler, buffer, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                        compiler.get_buffer_block_flags(buffer.id)));
-        readStruct(compiler, buffer.base_type_id, result.structs);
-    }
     for (const auto& image : resources.storage_images)
         bindings.push_back(
             readBinding(compiler, image, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, compiler.get_decoration_bitset(image.id)));
     for (const auto& image : resources.sampled_images)
         bindings.push_back(readBinding(compiler, image, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, {}));
-    std::sort(bindings.begin(), bindings.end(), [](auto& a, auto& b) { return a.binding < b.binding; });
-    for (const auto& block : resources.push_constant_buffers) {
-        readStruct(compiler, block.base_type_id, result.structs);
-        result.pushBytes = result.structs.back().bytes;
-    }
+    std::ranges::sort(bindings, {}, &BindingInfo::binding);
+    for (const auto& block : resources.push_constant_buffers)
+        result.pushBytes = compiler.get_declared_struct_size(compiler.get_type(block.base_type_id));
     for (const auto& constant : compiler.get_specialization_constants())
         result.constantIds.push_back(constant.constant_id);
     return result;
 }
 
 }  // namespace
-
-const StructLayout& Reflection::layout(std::string_view name) const {
-    const auto found = std::find_if(structs.begin(), structs.end(), [&](const auto& s) { return s.name == name; });
-    require(found != structs.end(), fmt::format("no struct {}", name));
-    return *found;
-}
 
 Reflection reflect(std::span<const std::uint32_t> spirv) {
     try {

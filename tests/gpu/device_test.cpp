@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <type_traits>
+#include <utility>
 
 #include "base/error.h"
 #include "gpu/context.h"
@@ -93,38 +95,99 @@ TEST(Device, NoValidationLayerIsAnErrorWithItsMend) {
                 ThrowsMessage<Error>(HasSubstr("vulkan-validationlayers")));
 }
 
-Capabilities completeCapabilities() {
-    Capabilities capabilities;
-    capabilities.apiVersion = VK_API_VERSION_1_3;
-    capabilities.pushDescriptors = true;
-    capabilities.queueFamily = 0;
-    capabilities.features = requiredFeatures();
-    return capabilities;
+/// Puts another function in the place of a Vulkan entry point for one scope.
+template <class Function>
+class Replaced {
+  public:
+    Replaced(Function& entry, std::type_identity_t<Function> other)
+        : entry_(entry), real_(std::exchange(entry, other)) {}
+    Replaced(const Replaced&) = delete;
+    Replaced& operator=(const Replaced&) = delete;
+    ~Replaced() { entry_ = real_; }
+
+  private:
+    Function& entry_;
+    Function real_;
+};
+
+class RequirementsTest : public testing::Test {
+  protected:
+    std::string missing() const { return assess(device).missing; }
+
+    /// What is missing where the device has all features but those that `lack` switches off.
+    std::string missingWithout(void (*lack)(VkPhysicalDeviceFeatures2&)) {
+        static void (*change)(VkPhysicalDeviceFeatures2&) = nullptr;
+        static PFN_vkGetPhysicalDeviceFeatures2 real = nullptr;
+        change = lack;
+        real = vkGetPhysicalDeviceFeatures2;
+        const Replaced entry(vkGetPhysicalDeviceFeatures2,
+                             [](VkPhysicalDevice of, VkPhysicalDeviceFeatures2* features) {
+                                 real(of, features);
+                                 change(*features);
+                             });
+        return missing();
+    }
+
+    Instance instance{false};
+    VkPhysicalDevice device = instance.physicalDevices().front();
+};
+
+TEST_F(RequirementsTest, UsableDeviceLacksNothing) {
+    const Suitability found = assess(device);
+    EXPECT_EQ(found.missing, "");
+    EXPECT_GT(found.timestampBits, 0U);
 }
 
-TEST(Requirements, FirstMissingOneIsNamed) {
-    EXPECT_EQ(missingRequirement(completeCapabilities()), "");
-    Capabilities lacking = completeCapabilities();
-    lacking.apiVersion = VK_API_VERSION_1_2;
-    EXPECT_EQ(missingRequirement(lacking), "Vulkan 1.3");
-    lacking = completeCapabilities();
-    lacking.features.core.features.shaderInt64 = VK_FALSE;
-    EXPECT_EQ(missingRequirement(lacking), "shaderInt64");
-    lacking = completeCapabilities();
-    lacking.features.v12.shaderBufferInt64Atomics = VK_FALSE;
-    EXPECT_EQ(missingRequirement(lacking), "shaderBufferInt64Atomics");
-    lacking = completeCapabilities();
-    lacking.features.v13.synchronization2 = VK_FALSE;
-    EXPECT_EQ(missingRequirement(lacking), "synchronization2");
-    lacking = completeCapabilities();
-    lacking.pushDescriptors = false;
-    EXPECT_EQ(missingRequirement(lacking), "VK_KHR_push_descriptor");
-    lacking = completeCapabilities();
-    lacking.queueFamily.reset();
-    EXPECT_EQ(missingRequirement(lacking), "a compute queue with timestamps");
-    lacking = completeCapabilities();
-    lacking.missingFormat = "linear filtering of format R32_SFLOAT";
-    EXPECT_EQ(missingRequirement(lacking), "linear filtering of format R32_SFLOAT");
+TEST_F(RequirementsTest, MissingFeatureIsNamed) {
+    EXPECT_EQ(missingWithout([](auto& features) { features.features.shaderInt64 = VK_FALSE; }), "shaderInt64");
+    EXPECT_EQ(missingWithout([](auto& features) {
+                  auto* next = static_cast<VkPhysicalDeviceVulkan12Features*>(features.pNext);
+                  ASSERT_EQ(next->sType, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
+                  next->shaderBufferInt64Atomics = VK_FALSE;
+              }),
+              "shaderBufferInt64Atomics");
+    EXPECT_EQ(missingWithout([](auto& features) {
+                  auto* next = static_cast<VkPhysicalDeviceVulkan12Features*>(features.pNext);
+                  auto* last = static_cast<VkPhysicalDeviceVulkan13Features*>(next->pNext);
+                  ASSERT_EQ(last->sType, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
+                  last->maintenance4 = VK_FALSE;
+              }),
+              "maintenance4");
+}
+
+TEST_F(RequirementsTest, OldVulkanIsNamed) {
+    const Replaced entry(vkGetPhysicalDeviceProperties, [](VkPhysicalDevice, VkPhysicalDeviceProperties* properties) {
+        properties->apiVersion = VK_API_VERSION_1_2;
+    });
+    EXPECT_EQ(missing(), "Vulkan 1.3");
+}
+
+TEST_F(RequirementsTest, MissingExtensionIsNamed) {
+    const Replaced entry(vkEnumerateDeviceExtensionProperties,
+                         [](VkPhysicalDevice, const char*, std::uint32_t* count, VkExtensionProperties*) {
+                             *count = 0;
+                             return VK_SUCCESS;
+                         });
+    EXPECT_EQ(missing(), "VK_KHR_push_descriptor");
+}
+
+TEST_F(RequirementsTest, MissingFilterIsNamed) {
+    const Replaced entry(vkGetPhysicalDeviceFormatProperties,
+                         [](VkPhysicalDevice, VkFormat format, VkFormatProperties* properties) {
+                             *properties = {};
+                             if (format == VK_FORMAT_R32_SFLOAT)
+                                 properties->optimalTilingFeatures = VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+                         });
+    EXPECT_EQ(missing(), "linear filtering of 32-bit floats");
+}
+
+TEST_F(RequirementsTest, MissingQueueIsNamed) {
+    const Replaced entry(vkGetPhysicalDeviceQueueFamilyProperties,
+                         [](VkPhysicalDevice, std::uint32_t* count, VkQueueFamilyProperties* families) {
+                             *count = 1;
+                             if (families != nullptr) *families = {VK_QUEUE_COMPUTE_BIT, 1, 0, {}};  // no timestamps
+                         });
+    EXPECT_EQ(missing(), "a compute queue with timestamps");
 }
 
 TEST(Result, IsCheckedAndNamed) {
