@@ -5,9 +5,11 @@ set -euo pipefail
 
 packages=(
     # tools
-    g++ cmake ninja-build ccache glslang-tools python3
+    g++ cmake ninja-build ccache glslang-tools pkg-config python3
     # clouds and pictures
     libopenvdb-dev libboost-iostreams-dev libtbb-dev libopenexr-dev libpng-dev
+    # plots
+    libcairo2-dev fonts-dejavu-core
     # Vulkan: headers, loader, a driver that runs on the CPU, validation
     libvulkan-dev libvulkan-volk-dev libspirv-cross-c-shared-dev mesa-vulkan-drivers vulkan-validationlayers
     # the rest

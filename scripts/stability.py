@@ -32,7 +32,10 @@ TAIL = """
 | case | why not here | test |
 |---|---|---|
 | coefficients at the fixed-point limit | lights do not change within `lumulus render` | `tests/stat/saturation_test.cpp`: later lights 10⁹ times brighter; saturation is counted, sums are clamped and never wrap |
-| 2³¹ photons | minutes on a CPU even where nothing scatters | by construction: counters of all photons are 64 bits wide on the host; one dispatch counts at most 2³⁰ photons (`src/photon/slab.cpp`) |
+| a ring of 4096 generations over the memory budget | `render` keeps the sum alone, whatever the number of generations | `tests/gpu/photon_ring_test.cpp`, `tests/unit/map_limits_test.cpp`: refused with both numbers |
+| a generation larger than a buffer of the device | the limit depends on the device (128 MiB on lavapipe) | `tests/unit/map_limits_test.cpp`: refused with both numbers |
+| more than 2³⁸ records in a generation, where a sum might wrap | days of work | `tests/unit/map_limits_test.cpp`: the trace ends with an error |
+| more than 2³¹ photons in a layer | minutes to hours | by construction: a dispatch counts at most 2³⁰ photons (`src/photon/slab.cpp`), the sums have 64 bits |
 | generations that replace others, in any lights | `render` traces each only once | `tests/gpu/photon_ring_test.cpp` |
 """
 

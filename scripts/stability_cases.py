@@ -1,6 +1,7 @@
 """The cases of the stability report: what is run, what is expected and why."""
 
 import math
+import re
 import subprocess
 from dataclasses import dataclass
 from typing import Callable
@@ -276,6 +277,34 @@ def maps(spp):
     yield against_reference("1 generation", spp, "photon_map.generations=1")
     yield against_reference("4096 generations", spp, "photon_map.generations=4096", "photon_map.photons=40960",
                             "photon_map.bands=3", "cloud.0.resolution=8", "preparation.samples=500", seconds=240)
+
+    def many(lumulus):
+        """Each collision in the thin ball is as rare with 2^31 photons at once as with 2^24 of other numbers."""
+        thin = ("cloud.0.resolution=8", "cloud.0.extinction=1e-4")
+        some = lumulus.render(*thin, "photon_map.photons=16777216", "photon_map.generations=16")
+        most = lumulus.render(*thin, f"photon_map.photons={2**31}", "photon_map.generations=1")
+        rates = [picture.statistics["events"] / picture.statistics["photons"] for picture in (some, most)]
+        error = math.sqrt(rates[0] / some.statistics["photons"])
+        counted = most.statistics["photons"] == most.statistics["escaped"] == 2**31
+        bias = lumulus.compare(some.path, most.path)["relative_bias"]
+        deviation = (rates[0] - rates[1]) / error
+        return Outcome(f"{most.statistics['escaped']} photons escaped, {rates[1]:.6f} collisions each (2^24 photons: "
+                       f"{rates[0]:.6f} ± {error:.1g}), pictures differ by {100 * bias:+.2f} %", deviation,
+                       counted and abs(deviation) < 4.5 and abs(bias) < 0.01)
+
+    yield Case("2^31 photons in one generation, τ .02", "every photon counted, collisions and light as with 2^24 photons in "
+               "16 generations", many, seconds=3600)
+
+    def refused(lumulus):
+        done = lumulus.run("render", lumulus.scene, "-o", lumulus.folder / "refused.exr", "--quiet", *lumulus.overrides(
+            ("photon_map.generations=4096", "photon_map.memory_budget=1", "photon_map.bands=8")))
+        message = done.stderr.strip()
+        numbers = re.search(r"needs [\d.]+ MiB.* its budget is 1\.00 MiB \(photon_map\.memory_budget\)", message)
+        return Outcome(message, None, done.returncode == 2 and numbers is not None and "\n" not in message
+                       and not (lumulus.folder / "refused.exr").exists())
+
+    yield Case("4096 generations over the memory budget of 1 MiB", "refused with both numbers: exit code 2, no picture",
+               refused)
 
     def averaged(lumulus):
         path = lumulus.folder / "large.vdb"

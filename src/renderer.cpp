@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "cloud/cloud.h"
 #include "draw/billboards.h"
 #include "draw/camera.h"
@@ -34,11 +35,12 @@ double largest(const glm::dvec3& v) {
     return std::max(v.x, std::max(v.y, v.z));
 }
 
-/// Rows drawn at once: what fits into 64 MiB of pixels, in whole tiles.
+/// Rows drawn at once, in whole tiles: few enough that progress and Ctrl-C do not wait long, and 2^18 pixels at most.
 int bandRows(const Camera& camera) {
-    const auto row = static_cast<std::int64_t>(sizeof(shared::Pixel)) * camera.width;
-    const std::int64_t tiles = (std::int64_t{64} << 20) / (row * shared::TILE_EDGE);
-    return static_cast<int>(std::clamp<std::int64_t>(tiles, 1, (camera.height + 15) / 16)) * shared::TILE_EDGE;
+    constexpr int bands = 32;
+    const int tiles = (camera.height + bands * shared::TILE_EDGE - 1) / (bands * shared::TILE_EDGE);
+    const int most = (1 << 18) / (camera.width * shared::TILE_EDGE);
+    return std::max(1, std::min(tiles, most)) * shared::TILE_EDGE;
 }
 
 void addTime(std::vector<PassTime>& times, const gpu::PassTime& pass) {
@@ -53,9 +55,10 @@ void addTime(std::vector<PassTime>& times, const gpu::PassTime& pass) {
 
 struct Renderer::State {
     State(const scene::Scene& theScene, const RendererOptions& options)
-        : scene(theScene), context({options.device, options.validation}), commands(context) {}
+        : scene(theScene), report(options.report), context({options.device, options.validation}), commands(context) {}
 
     scene::Scene scene;
+    Report report;
     gpu::Context context;
     gpu::Commands commands;
     Camera camera;
@@ -120,6 +123,7 @@ void Renderer::State::preparePhotons() {
     options.firstGeneration = static_cast<std::uint32_t>(wanted.firstGeneration);
     options.bands = wanted.bands;
     options.seed = wanted.seed;
+    options.memoryBudget = static_cast<std::uint64_t>(std::ldexp(wanted.memoryBudget, 20));
     photons.emplace(context, *cloud, medium, options);
 }
 
@@ -132,19 +136,23 @@ Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
         return;
     }
     auto start = Clock::now();
-    CloudVolume loaded = loadCloudVolume(scene.clouds[0], scene.preparation.memoryBudget);
+    CloudVolume loaded = loadCloudVolume(scene.clouds[0], scene.preparation.memoryBudget, s.report);
     s.statistics.warnings = std::move(loaded.warnings);
     s.statistics.loadSeconds = secondsSince(start);
     s.camera = makeCamera(scene.camera, scene.image, boundsOf(loaded.volume));
     if (loaded.volume.empty()) return;
 
     start = Clock::now();
+    s.report("preparing the cloud", 0, 1);
     s.makeMedium(scene.clouds[0], static_cast<double>(loaded.volume.maximum));
     if (s.medium.extinction > 0.0) {
         s.prepareCloud(loaded.volume);
+        stopIfInterrupted();
         s.preparePhotons();
+        stopIfInterrupted();
         s.prepareDrawing();
     }
+    s.report("preparing the cloud", 1, 1);
     s.statistics.prepareSeconds = secondsSince(start);
 }
 
@@ -255,8 +263,14 @@ void Renderer::State::drawCloud(LayeredImage& image) {
     const gpu::Image none(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT);
     const draw::FrameInputs inputs{params, *phase, lightField ? lightField->image() : none,
                                    sunDepth ? sunDepth->image() : none, pixels};
-    for (int row = 0; row < camera.height; row += band)
+    const auto bands = static_cast<std::uint64_t>((camera.height + band - 1) / band);
+    report("drawing", 0, bands);
+    for (std::uint64_t done = 0; done < bands; ++done) {
+        stopIfInterrupted();
+        const int row = static_cast<int>(done) * band;
         drawBand(image, inputs, params, row, std::min(band, camera.height - row));
+        report("drawing", done + 1, bands);
+    }
     statistics.gpuBytes = context.allocatedBytes();
 }
 

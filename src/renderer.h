@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/progress.h"
 #include "scene/scene.h"
 
 namespace lumulus {
 
 struct RendererOptions {
-    std::string device;       ///< name (part of it) or index; empty: the best one
-    bool validation = false;  ///< Vulkan validation and synchronisation validation; messages end up in `Statistics`
+    std::string device;        ///< name (part of it) or index; empty: the best one
+    bool validation = false;   ///< Vulkan validation and synchronisation validation; messages end up in `Statistics`
+    Report report = noReport;  ///< told of loading, preparing and drawing
 };
 
 struct PassTime {
@@ -38,7 +40,7 @@ struct Statistics {
 };
 
 /// Owns the device, the cloud and the photon map, and makes frames.
-/// Errors: InputError for bad scenes, Error for what fails while running.
+/// Errors: InputError for bad scenes, Error for what fails while running and where interrupted.
 class Renderer {
   public:
     Renderer(const scene::Scene& scene, const RendererOptions& options);

@@ -98,12 +98,12 @@ std::vector<float> sliceBlobs(const Volume& volume, const std::vector<Blob>& blo
 
 }  // namespace
 
-Volume makeCirrus(int resolution, std::uint64_t seed) {
+Volume makeCirrus(int resolution, std::uint64_t seed, const Report& report) {
     Volume volume = makeBox("cirrus", glm::dvec3(kLength, kHeight, kDepth), resolution);
     const auto voxel = static_cast<float>(volume.toWorld.linear[0][0]);
     const std::vector<Blob> blobs = growHooks(seed, 1.1F * voxel);
     const std::uint32_t fibres = deriveSeed(seed, 2);
-    fillSlices(volume, [&](int z) {
+    fillSlices(volume, report, [&](int z) {
         const std::vector<float> ice = sliceBlobs(volume, blobs, z);
         for (int y = 1; y < volume.size.y - 1; ++y) {
             for (int x = 1; x < volume.size.x - 1; ++x) {

@@ -120,13 +120,13 @@ class Cumulus {
 
 }  // namespace
 
-Volume makeCumulus(int resolution, std::uint64_t seed) {
+Volume makeCumulus(int resolution, std::uint64_t seed, const Report& report) {
     std::vector<Puff> puffs = growPuffs(seed, kWidth - 2.0F * kMargin);
     const PuffBounds bounds = boundPuffs(puffs);
     const glm::vec3 extent = bounds.high - bounds.low + 2.0F * kMargin;
     Volume volume = makeBox("cumulus", glm::dvec3(extent.x, kHeight, extent.z), resolution);
     const Cumulus cumulus(volume, std::move(puffs), seed);
-    fillSlices(volume, [&](int z) { cumulus.fillSlice(z); });
+    fillSlices(volume, report, [&](int z) { cumulus.fillSlice(z); });
     return volume;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/interrupt.h"
 #include "vdb/file.h"
 
 namespace lumulus::vdb {
@@ -64,7 +65,10 @@ GridInfo describeGrid(const openvdb::GridBase& grid) {
 
 std::vector<GridInfo> describe(const std::filesystem::path& path) {
     std::vector<GridInfo> infos;
-    for (const openvdb::GridBase::Ptr& grid : readGrids(path)) infos.push_back(describeGrid(*grid));
+    for (const openvdb::GridBase::Ptr& grid : readGrids(path)) {
+        stopIfInterrupted();
+        infos.push_back(describeGrid(*grid));
+    }
     return infos;
 }
 

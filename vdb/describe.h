@@ -31,7 +31,7 @@ struct GridInfo {
 };
 
 /// What is in an OpenVDB file, grid by grid, in the order of the file.
-/// Throws InputError for a file that cannot be read, as `load` does.
+/// Throws InputError for a file that cannot be read, as `load` does, Error where interrupted.
 std::vector<GridInfo> describe(const std::filesystem::path& path);
 
 }  // namespace lumulus::vdb

@@ -11,6 +11,8 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/interrupt.h"
+#include "vdb/chunks.h"
 #include "vdb/header.h"
 
 namespace lumulus::vdb {
@@ -22,12 +24,17 @@ namespace fs = std::filesystem;
     throw InputError(what, path.string(), mend);
 }
 
-/// Messages of OpenVDB and of the C++ library on one line.
-std::string oneLine(const std::exception& error) {
-    std::string text = error.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
+/// A file whose reading Ctrl-C ends: OpenVDB has no other place for that.
+class InterruptibleFile : public std::filebuf {
+  public:
+    explicit InterruptibleFile(const fs::path& path) { open(path, std::ios::in | std::ios::binary); }
+
+  protected:
+    std::streamsize xsgetn(char* to, std::streamsize bytes) override {
+        stopIfInterrupted();
+        return std::filebuf::xsgetn(to, bytes);
+    }
+};
 
 /// Sorts out what is no OpenVDB file at all, before OpenVDB sees it.
 void checkStart(const fs::path& path) {
@@ -64,8 +71,10 @@ void checkStart(const fs::path& path) {
 
 openvdb::GridPtrVec readGrids(const fs::path& path) {
     openvdb::initialize();
+    guardChunks();
     checkStart(path);
-    std::ifstream in(path, std::ios::binary);
+    InterruptibleFile file(path);
+    std::istream in(&file);
     // io::File reads truncated files without a word; a stream that throws does not. The flags say why it threw.
     bool ended = false;
     try {
@@ -75,7 +84,7 @@ openvdb::GridPtrVec readGrids(const fs::path& path) {
         const openvdb::GridPtrVecPtr grids = stream.getGrids();
         if (!grids || grids->empty()) refuse(path, "the file holds no grids", "write it with a float grid \"density\"");
         return *grids;
-    } catch (const InputError&) {
+    } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
         ended = in.eof();
@@ -83,7 +92,8 @@ openvdb::GridPtrVec readGrids(const fs::path& path) {
             refuse(path, "the file asks for more memory than there is", "it is damaged, or too large for this machine");
     } catch (const std::exception& error) {
         ended = in.eof();
-        if (!ended) refuse(path, "the file is damaged or of an unknown kind: " + oneLine(error), "write it again");
+        if (!ended)
+            refuse(path, std::string("the file is damaged or of an unknown kind: ") + error.what(), "write it again");
     } catch (...) {
         refuse(path, "the file is damaged", "write it again");
     }

@@ -28,7 +28,8 @@ struct LoadResult {
 /// with the full resolution. A grid without density gives a volume with `maximum` 0 and a warning. Throws InputError
 /// for a file that cannot be read (missing, no OpenVDB, truncated, damaged), a grid that is not there, of another type
 /// or a level set, a transform that is not affine or singular, and for values that are no densities (negative,
-/// infinite, not a number; the one with the lexicographically smallest index coordinate is named).
+/// infinite, not a number; the one with the lexicographically smallest index coordinate is named). Throws Error where
+/// interrupted.
 LoadResult load(const std::filesystem::path& path, const LoadOptions& options);
 
 }  // namespace lumulus::vdb

@@ -30,16 +30,16 @@ Volume makeBox(const std::string& name, const glm::dvec3& extent, int resolution
     return volume;
 }
 
-Volume makeCloud(const ProceduralOptions& options) {
+Volume makeCloud(const ProceduralOptions& options, const Report& report) {
     if (options.resolution < 8 || options.resolution > 1024) {
         throw InputError(fmt::format("resolution {} of a procedural cloud is out of range", options.resolution),
                          "resolution", "choose 8 to 1024 voxels");
     }
-    if (options.kind == "cumulus") return makeCumulus(options.resolution, options.seed);
-    if (options.kind == "stratus") return makeStratus(options.resolution, options.seed);
-    if (options.kind == "cirrus") return makeCirrus(options.resolution, options.seed);
-    if (options.kind == "sphere") return makeSphere(options.resolution);
-    if (options.kind == "slab") return makeSlab(options.resolution);
+    if (options.kind == "cumulus") return makeCumulus(options.resolution, options.seed, report);
+    if (options.kind == "stratus") return makeStratus(options.resolution, options.seed, report);
+    if (options.kind == "cirrus") return makeCirrus(options.resolution, options.seed, report);
+    if (options.kind == "sphere") return makeSphere(options.resolution, report);
+    if (options.kind == "slab") return makeSlab(options.resolution, report);
     std::string known;
     for (const std::string& kind : kinds()) known += (known.empty() ? "" : ", ") + kind;
     throw InputError(fmt::format("no procedural cloud is called \"{}\"", options.kind), "procedural",

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "vdb/volume.h"
 
 namespace lumulus::vdb {
@@ -25,7 +26,7 @@ std::vector<std::string> kinds();
 ///   sphere   a homogeneous ball of density 1 and radius 100 m
 ///   slab     a homogeneous box of density 1, 400 × 100 × 400 m
 /// `sphere` and `slab` hold the covered fraction of each voxel, so that their masses are those of the exact shapes.
-/// Throws InputError for an unknown kind or a resolution out of range.
-Volume makeCloud(const ProceduralOptions& options);
+/// Throws InputError for an unknown kind or a resolution out of range, Error where interrupted.
+Volume makeCloud(const ProceduralOptions& options, const Report& report = noReport);
 
 }  // namespace lumulus::vdb

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/interrupt.h"
+
 namespace lumulus::vdb {
 namespace {
 
@@ -49,6 +51,7 @@ double measureError(const Volume& volume, const To& to, const From& from) {
     const Sums sums = tbb::parallel_deterministic_reduce(
         Range(0, volume.density.size(), kGrain), Sums{},
         [&](const Range& range, Sums part) {
+            stopIfInterrupted();
             for (std::size_t i = range.begin(); i != range.end(); ++i) {
                 const float density = volume.density[i];
                 if (density == 0.0F) continue;
@@ -70,6 +73,7 @@ std::vector<std::byte> store(const Volume& volume, const Convert& convert) {
     if (volume.empty()) return texels;
     using Range = tbb::blocked_range<std::size_t>;
     tbb::parallel_for(Range(0, volume.density.size(), kGrain), [&](const Range& range) {
+        stopIfInterrupted();
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             const Texel texel = convert(volume.density[i] / volume.maximum);
             std::memcpy(texels.data() + i * sizeof(Texel), &texel, sizeof(Texel));

@@ -21,7 +21,7 @@ std::size_t texelBytes(DensityFormat format);
 
 /// Divides by the maximum, which is stored exactly as 1, and takes the smallest format whose measured relative error is
 /// at most 1e-3; R32F holds whatever the others do not. Rounds to nearest (half floats: ties to even). An empty volume
-/// gives zeros in R8.
+/// gives zeros in R8. Errors: Error where interrupted.
 QuantisedVolume quantise(const Volume& volume);
 
 }  // namespace lumulus::vdb

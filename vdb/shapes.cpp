@@ -24,23 +24,23 @@ double ballCoverage(const glm::dvec3& middle, double edge, const glm::dvec3& cen
 
 }  // namespace
 
-Volume makeSphere(int resolution) {
+Volume makeSphere(int resolution, const Report& report) {
     constexpr double radius = 100.0;
     constexpr int splits = 4;
     Volume volume = makeBox("sphere", glm::dvec3(2.0 * radius), resolution);
     const double edge = volume.toWorld.linear[0][0];
-    fillVoxels(volume, [&](int x, int y, int z) {
+    fillVoxels(volume, report, [&](int x, int y, int z) {
         const glm::dvec3 middle = volume.toWorld.point(glm::dvec3(x, y, z) + 0.5);
         return static_cast<float>(ballCoverage(middle, edge, glm::dvec3(0.0, radius, 0.0), radius, splits));
     });
     return volume;
 }
 
-Volume makeSlab(int resolution) {
+Volume makeSlab(int resolution, const Report& report) {
     const glm::dvec3 extent(400.0, 100.0, 400.0);
     Volume volume = makeBox("slab", extent, resolution);
     const glm::dvec3 low(-0.5 * extent.x, 0.0, -0.5 * extent.z);
-    fillVoxels(volume, [&](int x, int y, int z) {
+    fillVoxels(volume, report, [&](int x, int y, int z) {
         const glm::dvec3 from = volume.toWorld.point(glm::dvec3(x, y, z));
         const glm::dvec3 to = volume.toWorld.point(glm::dvec3(x, y, z) + 1.0);
         const glm::dvec3 covered = (glm::min(to, low + extent) - glm::max(from, low)) / (to - from);

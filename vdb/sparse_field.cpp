@@ -8,6 +8,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/interrupt.h"
+
 namespace lumulus::vdb {
 namespace {
 
@@ -80,6 +82,7 @@ class Rasteriser {
         volume.density.assign(volume.index(0, 0, volume.size.z), 0.0F);
         std::vector<float> maxima(static_cast<std::size_t>(size_.z), 0.0F);
         tbb::parallel_for(0, size_.z, [&](int slice) {
+            stopIfInterrupted();
             maxima[static_cast<std::size_t>(slice)] = n_ == 1 ? copySlice(volume, slice) : averageSlice(volume, slice);
         });
         volume.maximum = *std::max_element(maxima.begin(), maxima.end());
@@ -222,6 +225,7 @@ Survey surveyField(const SparseField& field) {
     Survey survey = tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, field.blocks.size(), 64), Survey{},
         [&](const tbb::blocked_range<std::size_t>& range, Survey part) {
+            stopIfInterrupted();
             for (std::size_t i = range.begin(); i != range.end(); ++i) surveyBlock(part, field.blocks[i], field.bounds);
             return part;
         },

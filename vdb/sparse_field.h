@@ -45,7 +45,7 @@ struct Survey {
     std::optional<BadValue> bad;  ///< the one with the lexicographically smallest coordinate
 };
 
-/// Looks at every value within the bounds once.
+/// Looks at every value within the bounds once. Errors: Error where interrupted.
 Survey surveyField(const SparseField& field);
 
 /// The smallest n for which boxes of n³ voxels, with a ring, fit both limits; 0 if even one voxel does not.
@@ -57,6 +57,7 @@ glm::ivec3 coarseSize(const glm::i64vec3& extent, std::int64_t n);
 
 /// The field over `crop` as averages over boxes of n³ voxels that start at its minimum (n = 1: the values themselves),
 /// with a ring of zeros. Fills size, density and maximum. What lies outside of `crop` counts as zero.
+/// Errors: Error where interrupted.
 Volume rasteriseField(const SparseField& field, const IndexBox& crop, std::int64_t n);
 
 }  // namespace lumulus::vdb

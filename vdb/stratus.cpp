@@ -63,12 +63,12 @@ class Stratus {
 
 }  // namespace
 
-Volume makeStratus(int resolution, std::uint64_t seed) {
+Volume makeStratus(int resolution, std::uint64_t seed, const Report& report) {
     constexpr double flattening = 2.0;  // a thin deck needs its voxels where it is thin
     Volume volume = makeBox("stratus", glm::dvec3(kWidth, kHeight, kWidth), resolution, flattening);
     const Stratus stratus(seed);
     const auto voxelHeight = static_cast<float>(volume.toWorld.linear[1][1]);
-    fillSlices(volume, [&](int z) {
+    fillSlices(volume, report, [&](int z) {
         for (int x = 1; x < volume.size.x - 1; ++x) {
             const glm::vec3 foot = voxelCentre(volume, x, 0, z);
             const Column column = stratus.column(foot.x, foot.z);

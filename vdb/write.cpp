@@ -1,10 +1,12 @@
 #include "vdb/write.h"
 
+#include <fmt/format.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 
 #include <cassert>
+#include <cstdint>
 #include <span>
 #include <sstream>
 #include <string>
@@ -41,6 +43,27 @@ openvdb::FloatGrid::Ptr makeGrid(const Volume& volume) {
     return grid;
 }
 
+/// FNV-1a (Fowler, Noll, Vo), 64 bits.
+std::uint64_t hashOf(std::string_view bytes, std::uint64_t hash) {
+    for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3U;
+    return hash;
+}
+
+/// OpenVDB draws a random UUID for each file it writes. One from the content instead (RFC 9562, version 8): the same
+/// cloud makes the same bytes.
+void setContentUuid(std::string& file) {
+    constexpr std::size_t start = 21;   // after the magic number, three versions and a flag
+    constexpr std::size_t length = 36;  // in text
+    const std::string_view content = std::string_view(file).substr(start + length);
+    std::uint64_t high = hashOf(content, 0xCBF29CE484222325U);
+    std::uint64_t low = hashOf(content, high);
+    high = (high & 0xFFFFFFFFFFFF0FFFU) | 0x8000U;
+    low = (low >> 2U) | 0x8000000000000000U;
+    file.replace(start, length,
+                 fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:012x}", high >> 32U, (high >> 16U) & 0xFFFFU,
+                             high & 0xFFFFU, low >> 48U, low & 0xFFFFFFFFFFFFU));
+}
+
 }  // namespace
 
 void write(const Volume& volume, const std::filesystem::path& path) {
@@ -60,6 +83,7 @@ void write(const Volume& volume, const std::filesystem::path& path) {
     } catch (const openvdb::Exception& error) {
         throw Error(std::string("the cloud cannot be saved: ") + error.what(), path.string(), "report this");
     }
+    setContentUuid(bytes);
     writeFile(path, std::as_bytes(std::span(bytes)));
 }
 

@@ -2,6 +2,8 @@
 
 #include <csignal>
 
+#include "base/error.h"
+
 namespace lumulus {
 namespace {
 
@@ -27,6 +29,10 @@ void installSignalHandlers() {
 
 bool interrupted() {
     return interruptFlag != 0;
+}
+
+void stopIfInterrupted() {
+    if (interrupted()) throw Error("interrupted", "", "nothing was written");
 }
 
 }  // namespace lumulus

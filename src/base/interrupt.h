@@ -10,4 +10,7 @@ void installSignalHandlers();
 /// True after the first SIGINT or SIGTERM.
 bool interrupted();
 
+/// For the steps of long work, on any thread. Throws Error after the first SIGINT or SIGTERM.
+void stopIfInterrupted();
+
 }  // namespace lumulus

@@ -1,27 +1,23 @@
 #include "base/log.h"
 
 #include <cstdio>
+#include <string>
+
+#include "base/text.h"
 
 namespace lumulus {
 namespace {
 
+/// A text quotes names of any length, often twice; what is wrong and how to mend it stand at its two ends.
+constexpr std::size_t longestText = 800;
+
 void print(std::string_view kind, std::string_view text) {
     // one call, so that lines of several threads do not mix
-    const std::string line = "lumulus: " + std::string(kind) + ": " + oneLine(text) + "\n";
+    const std::string line = "lumulus: " + std::string(kind) + ": " + shortened(oneLine(text), longestText) + "\n";
     std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 }  // namespace
-
-std::string oneLine(std::string_view text) {
-    std::string line(text);
-    for (char& c : line) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte < 0x20 || byte == 0x7F) c = ' ';
-    }
-    while (!line.empty() && line.back() == ' ') line.pop_back();
-    return line;
-}
 
 void logWarning(std::string_view text) {
     print("warning", text);

@@ -1,17 +1,13 @@
 #pragma once
 
-#include <string>
 #include <string_view>
 
 namespace lumulus {
 
-/// The text as one line: control characters (a newline in a file name or a library's message) become spaces.
-std::string oneLine(std::string_view text);
-
-/// One line on stderr, `lumulus: warning: …`.
+/// One line on stderr, `lumulus: warning: …`. Whatever the text quotes, the line is short and safe for a terminal.
 void logWarning(std::string_view text);
 
-/// One line on stderr, `lumulus: error: …`.
+/// One line on stderr, `lumulus: error: …`, as logWarning's.
 void logError(std::string_view text);
 
 }  // namespace lumulus

@@ -19,6 +19,9 @@ Truth makeTruth(LayeredImage image, std::string name, int width, int height, dou
     }
     reference::requireComparable({image, name}, {image, name});
     const reference::Comparison itself = reference::compare(image, image);
+    if (itself.meanReference == 0.0) {
+        throw InputError("the reference is black: no error can be relative to it", name, "give the scene some light");
+    }
     return {std::move(image), std::move(name), exposure, itself.referenceNoise};
 }
 

@@ -16,7 +16,8 @@ struct Truth {
     std::optional<double> floor;  ///< relMSE that the reference's noise alone makes, by its variance layers
 };
 
-/// Errors: InputError for a picture that cannot be compared with (reference::requireComparable), or of another size.
+/// Errors: InputError for a picture that cannot be compared with (reference::requireComparable), of another size, or
+/// black.
 Truth makeTruth(LayeredImage image, std::string name, int width, int height, double exposure);
 
 /// Errors: InputError where the picture holds NaN.

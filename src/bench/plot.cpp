@@ -5,14 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+
+#include "bench/canvas.h"
 
 namespace lumulus::bench {
 namespace {
 
-// pixels of the SVG's own coordinates
-constexpr double width = 720.0, height = 480.0;
-constexpr double left = 80.0, right = 700.0, top = 46.0, bottom = 425.0;
+// pixels
+constexpr double width = 720.0, height = 500.0;
+constexpr double left = 80.0, right = 700.0, top = 86.0, bottom = 446.0;
+constexpr double pngScale = 2.0;
+
+constexpr double lineWidth = 1.8;
+constexpr Colour orange{0.76, 0.25, 0.05}, blue{0.11, 0.31, 0.85}, grey{0.33, 0.33, 0.33};
+constexpr Colour major{0.73, 0.73, 0.73}, minor{0.93, 0.93, 0.93};
 
 /// A logarithmic axis from one power of ten to another.
 struct Axis {
@@ -23,6 +29,12 @@ struct Axis {
         const double share = (std::log10(value) - lowest) / (highest - lowest);
         return begin + std::clamp(share, 0.0, 1.0) * (end - begin);
     }
+};
+
+struct Axes {
+    Axis x, y;
+
+    Point place(double seconds, double error) const { return {x.place(seconds), y.place(error)}; }
 };
 
 Axis axisOver(const std::vector<double>& values, double begin, double end) {
@@ -37,103 +49,89 @@ struct Series {
     Method method;
     Spread Row::*seconds;
     const char* name;
-    const char* colour;
-    const char* dash;
+    Colour colour;
+    bool whole;  ///< by the clock of the whole process: hollow, dashed
+
+    Stroke stroke() const { return {colour, lineWidth, whole ? std::vector{5.0, 4.0} : std::vector<double>{}}; }
 };
 
 constexpr std::array<Series, 4> allSeries{
-    {{Method::render, &Row::warmSeconds, "render, without warm-up", "#c2410c", ""},
-     {Method::render, &Row::seconds, "render, whole", "#c2410c", "5 4"},
-     {Method::pathTracer, &Row::warmSeconds, "path tracer, without warm-up", "#1d4ed8", ""},
-     {Method::pathTracer, &Row::seconds, "path tracer, whole", "#1d4ed8", "5 4"}}};
+    {{Method::render, &Row::warmSeconds, "render, without warm-up", orange, false},
+     {Method::render, &Row::seconds, "render, whole", orange, true},
+     {Method::pathTracer, &Row::warmSeconds, "path tracer, without warm-up", blue, false},
+     {Method::pathTracer, &Row::seconds, "path tracer, whole", blue, true}}};
+
+const Stroke floorStroke{grey, lineWidth, {2.0, 3.0}};
 
 bool drawable(const Row& row) {
     return row.relMse.mean > 0.0;
 }
 
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '&')
-            result += "&amp;";
-        else if (c == '<')
-            result += "&lt;";
-        else if (c == '>')
-            result += "&gt;";
-        else
-            result += c;
-    }
-    return result;
+void drawLine(Canvas& canvas, const Point& from, const Point& to, const Stroke& stroke) {
+    canvas.line(std::array{from, to}, stroke);
 }
 
-std::string lineSvg(double x1, double y1, double x2, double y2, const std::string& style) {
-    return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x1, y1, x2, y2, style);
-}
-
-std::string textSvg(double x, double y, const char* anchor, const std::string& text) {
-    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor, escaped(text));
-}
-
-/// Lines at 1 to 9 of each decade, names at its powers of ten.
-std::string gridSvg(const Axis& x, const Axis& y) {
-    std::string svg;
-    const auto each = [](const Axis& axis, auto&& draw) {
-        for (int decade = axis.lowest; decade <= axis.highest; ++decade) {
-            for (int digit = 1; digit <= (decade < axis.highest ? 9 : 1); ++digit) {
-                draw(axis.place(digit * std::pow(10.0, decade)), decade, digit == 1);
-            }
+/// Calls `draw(place, words)` at 1 to 9 of each decade; words only at its powers of ten.
+template <typename Draw>
+void eachGridLine(const Axis& axis, Draw&& draw) {
+    for (int decade = axis.lowest; decade <= axis.highest; ++decade) {
+        const double power = std::pow(10.0, decade);
+        for (int digit = decade < axis.highest ? 9 : 1; digit >= 1; --digit) {
+            draw(axis.place(digit * power), digit == 1 ? fmt::format("{:g}", power) : std::string());
         }
-    };
-    const auto style = [](bool major) { return major ? "stroke=\"#bbb\"" : "stroke=\"#eee\""; };
-    each(x, [&](double at, int decade, bool major) {
-        svg += lineSvg(at, top, at, bottom, style(major));
-        if (major) svg += textSvg(at, bottom + 17.0, "middle", fmt::format("{:g}", std::pow(10.0, decade)));
-    });
-    each(y, [&](double at, int decade, bool major) {
-        svg += lineSvg(left, at, right, at, style(major));
-        if (major) svg += textSvg(left - 7.0, at + 4.0, "end", fmt::format("{:g}", std::pow(10.0, decade)));
-    });
-    svg += textSvg(0.5 * (left + right), height - 14.0, "middle", "seconds");
-    return svg + fmt::format(
-                     "<text x=\"22\" y=\"{0:.1f}\" text-anchor=\"middle\" transform=\"rotate(-90 22 {0:.1f})\">"
-                     "relMSE</text>\n",
-                     0.5 * (top + bottom));
+    }
 }
 
-std::string seriesSvg(const Series& series, std::span<const Row> rows, const Axis& x, const Axis& y) {
-    const std::string stroke = fmt::format("stroke=\"{}\" stroke-width=\"1.8\"", series.colour);
-    std::string points, marks;
+void drawGrid(Canvas& canvas, const Axes& axes) {
+    const auto stroke = [](const std::string& words) { return Stroke{words.empty() ? minor : major, 1.0, {}}; };
+    eachGridLine(axes.x, [&](double at, const std::string& words) {
+        drawLine(canvas, {at, top}, {at, bottom}, stroke(words));
+        canvas.text({at, bottom + 18.0}, Anchor::middle, words);
+    });
+    eachGridLine(axes.y, [&](double at, const std::string& words) {
+        drawLine(canvas, {left, at}, {right, at}, stroke(words));
+        canvas.text({left - 7.0, at + 4.0}, Anchor::right, words);
+    });
+    canvas.box({left, top}, {right, bottom}, {grey, 1.0, {}});
+    canvas.text({0.5 * (left + right), height - 14.0}, Anchor::middle, "seconds");
+    canvas.textUpwards({22.0, 0.5 * (top + bottom)}, Anchor::middle, "relMSE");
+}
+
+void drawSeries(Canvas& canvas, const Series& series, std::span<const Row> rows, const Axes& axes) {
+    std::vector<Point> points;
     for (const Row& row : rows) {
         if (row.method != series.method || !drawable(row)) continue;
-        const double px = x.place((row.*series.seconds).mean), py = y.place(row.relMse.mean);
-        points += fmt::format("{:.1f},{:.1f} ", px, py);
-        marks += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\" fill=\"{}\"/>\n", px, py, series.colour);
-        const double low = std::max(row.relMse.mean - row.relMse.deviation, std::pow(10.0, y.lowest));
-        marks += lineSvg(px, y.place(low), px, y.place(row.relMse.mean + row.relMse.deviation), stroke);
+        const double seconds = (row.*series.seconds).mean;
+        points.push_back(axes.place(seconds, row.relMse.mean));
+        const double low = std::max(row.relMse.mean - row.relMse.deviation, std::pow(10.0, axes.y.lowest));
+        drawLine(canvas, axes.place(seconds, low), axes.place(seconds, row.relMse.mean + row.relMse.deviation),
+                 {series.colour, lineWidth, {}});
     }
-    return fmt::format("<polyline points=\"{}\" fill=\"none\" {} stroke-dasharray=\"{}\"/>\n{}", points, stroke,
-                       series.dash, marks);
+    canvas.line(points, series.stroke());
+    for (const Point& point : points) canvas.disc(point, 3.4, series.colour, !series.whole);
 }
 
-std::string legendSvg(bool withFloor) {
-    double y = top + 16.0;
-    std::string svg =
-        fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"232\" height=\"{}\" fill=\"#fff\" stroke=\"#bbb\"/>\n",
-                    right - 240.0, top + 2.0, withFloor ? 92 : 75);
-    const auto entry = [&](const char* name, const char* colour, const char* dash) {
-        svg += lineSvg(right - 232.0, y - 4.0, right - 200.0, y - 4.0,
-                       fmt::format("stroke=\"{}\" stroke-width=\"1.8\" stroke-dasharray=\"{}\"", colour, dash));
-        svg += textSvg(right - 192.0, y, "start", name);
-        y += 17.0;
+/// Above the grid, where no curve can be: a column for each method, and one for the floor.
+void drawLegend(Canvas& canvas, bool withFloor) {
+    constexpr std::array columns{left, left + 206.0, left + 436.0};
+    constexpr double rowHeight = 18.0, sample = 32.0;
+    const auto entry = [&](std::size_t column, int row, const char* name, const Stroke& stroke) {
+        const Point at{columns.at(column), 52.0 + row * rowHeight};
+        const double y = at.y - 4.0;
+        drawLine(canvas, {at.x, y}, {at.x + sample, y}, stroke);
+        canvas.text({at.x + sample + 8.0, at.y}, Anchor::left, name);
+        return Point{at.x + 0.5 * sample, y};
     };
-    for (const Series& series : allSeries) entry(series.name, series.colour, series.dash);
-    if (withFloor) entry("noise of the reference", "#555", "2 3");
-    return svg;
+    for (const Series& series : allSeries) {
+        const std::size_t column = series.method == Method::render ? 0 : 1;
+        const Point middle = entry(column, series.whole ? 1 : 0, series.name, series.stroke());
+        canvas.disc(middle, 3.4, series.colour, !series.whole);
+    }
+    if (withFloor) entry(2, 0, "noise of the reference", floorStroke);
 }
 
-}  // namespace
-
-std::string errorPlotSvg(std::span<const Row> rows, const std::string& title, std::optional<double> floor) {
+std::vector<std::byte> drawn(Canvas canvas, std::span<const Row> rows, const std::string& title,
+                             std::optional<double> floor) {
     std::vector<double> seconds, errors;
     for (const Row& row : rows) {
         if (!drawable(row)) continue;
@@ -142,18 +140,23 @@ std::string errorPlotSvg(std::span<const Row> rows, const std::string& title, st
     }
     const bool withFloor = floor && *floor > 0.0;
     if (withFloor) errors.push_back(*floor);
-    const Axis x = axisOver(seconds, left, right), y = axisOver(errors, bottom, top);
-    std::string svg = fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
-        "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
-        width, height);
-    svg += textSvg(left, 28.0, "start", title) + gridSvg(x, y);
+    const Axes axes{axisOver(seconds, left, right), axisOver(errors, bottom, top)};
+    canvas.text({left, 26.0}, Anchor::left, title);
+    drawGrid(canvas, axes);
     if (withFloor) {
-        svg += lineSvg(left, y.place(*floor), right, y.place(*floor),
-                       "stroke=\"#555\" stroke-width=\"1.8\" stroke-dasharray=\"2 3\"");
+        const double y = axes.y.place(*floor);
+        drawLine(canvas, {left, y}, {right, y}, floorStroke);
     }
-    for (const Series& series : allSeries) svg += seriesSvg(series, rows, x, y);
-    return svg + legendSvg(withFloor) + "</svg>\n";
+    for (const Series& series : allSeries) drawSeries(canvas, series, rows, axes);
+    drawLegend(canvas, withFloor);
+    return canvas.finish();
+}
+
+}  // namespace
+
+Plot errorPlot(std::span<const Row> rows, const std::string& title, std::optional<double> floor) {
+    return {drawn(Canvas::svg(width, height), rows, title, floor),
+            drawn(Canvas::png(width, height, pngScale), rows, title, floor)};
 }
 
 }  // namespace lumulus::bench

@@ -17,6 +17,7 @@
 #include "bench/render_runs.h"
 #include "bench/table.h"
 #include "cli/output.h"
+#include "gpu/device.h"
 #include "scene/load.h"
 
 namespace lumulus::cli {
@@ -41,10 +42,6 @@ std::optional<std::uint64_t> seedOf(const LayeredImage& reference) {
     return seed;
 }
 
-void write(const std::filesystem::path& path, const std::string& text) {
-    writeFile(path, std::as_bytes(std::span(text)));
-}
-
 }  // namespace
 
 void runBench(const BenchOptions& options) {
@@ -54,9 +51,9 @@ void runBench(const BenchOptions& options) {
     const std::vector<std::uint64_t> seeds = bench::seedsWithout(scene.photonMap.seed, options.seeds, seedOf(picture));
     const bench::Truth truth = bench::makeTruth(std::move(picture), options.reference.string(), scene.image.width,
                                                 scene.image.height, scene.image.exposure);
+    gpu::chooseDevices(gpu::listDevices(), options.device);  // refuses a device that there is not, before any work
     makeFolder(options.output);
-    checkWritable(options.output / "error.csv");
-    checkWritable(options.output / "error.svg");
+    for (const char* name : {"error.csv", "error.svg", "error.png"}) checkWritable(options.output / name);
 
     const std::uint64_t pictures = budgets.size() * seeds.size();
     std::vector<bench::Run> runs;
@@ -70,8 +67,11 @@ void runBench(const BenchOptions& options) {
         runs.insert(runs.end(), traced.begin(), traced.end());
     }
     const std::vector<bench::Row> rows = bench::summarise(runs);
-    write(options.output / "error.csv", bench::csv(rows));
-    write(options.output / "error.svg", bench::errorPlotSvg(rows, options.scene.filename().string(), truth.floor));
+    const std::string numbers = bench::csv(rows);
+    writeFile(options.output / "error.csv", std::as_bytes(std::span(numbers)));
+    const bench::Plot plot = bench::errorPlot(rows, options.scene.filename().string(), truth.floor);
+    writeFile(options.output / "error.svg", plot.svg);
+    writeFile(options.output / "error.png", plot.png);
     printOut(bench::tableText(rows, truth.floor));
 }
 

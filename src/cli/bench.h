@@ -9,7 +9,7 @@ namespace lumulus::cli {
 struct BenchOptions {
     std::filesystem::path scene;
     std::filesystem::path reference;  ///< .exr of the scene's size
-    std::filesystem::path output;     ///< folder for error.csv and error.svg; made where it is missing
+    std::filesystem::path output;     ///< folder for error.csv, error.svg and error.png; made where it is missing
     std::vector<double> seconds{0.1, 0.3, 1.0, 3.0, 10.0};
     int seeds = 3;
     std::vector<std::string> overrides;

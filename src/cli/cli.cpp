@@ -6,7 +6,6 @@
 #include <new>
 
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "base/log.h"
 #include "base/version.h"
 #include "cli/bench.h"
@@ -24,9 +23,19 @@ namespace {
 /// The subcommand that the command line chose; empty until then.
 using Action = std::function<void()>;
 
+/// Empty text is a variable of the shell that is not set, not a wish for the default.
+CLI::Validator notEmpty() {
+    return {[](const std::string& text) { return text.empty() ? "give it a value" : ""; }, "TEXT"};
+}
+
 /// Like the seeds of scene files, up to 2^53.
 CLI::Range seedRange() {
     return {std::uint64_t{0}, std::uint64_t{1} << 53};
+}
+
+CLI::Option* addDevice(CLI::App& command, std::string& device) {
+    return command.add_option("--device", device, "Name (a part is enough) or index of a device, see info --devices")
+        ->check(notEmpty());
 }
 
 void addRender(CLI::App& app, RenderOptions& options, Action& action) {
@@ -46,8 +55,9 @@ void addRender(CLI::App& app, RenderOptions& options, Action& action) {
     command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
         ->allow_extra_args(false);
     command->add_option("--seed", options.seed, "Seed of the random numbers (photon_map.seed)")->check(seedRange());
-    command->add_option("--device", options.device, "Name (a part is enough) or index of a device, see info --devices");
-    command->add_option("--stats", options.stats, "Write statistics as JSON to this file, - for standard output");
+    addDevice(*command, options.device);
+    command->add_option("--stats", options.stats, "Write statistics as JSON to this file, - for standard output")
+        ->check(notEmpty());
     command->add_flag("--quiet", options.quiet, "No progress");
     command->add_flag("--validate", options.validate, "Run with Vulkan validation; fail on any message");
     command->footer(
@@ -61,6 +71,7 @@ void addCloud(CLI::App& app, CloudOptions& options, Action& action) {
     command->add_option("-o,--output", options.output, "OpenVDB file (.vdb)")->required();
     command->add_option("--resolution", options.resolution, "Voxels along the longest side")->capture_default_str();
     command->add_option("--seed", options.seed, "Seed of the shape")->check(seedRange())->capture_default_str();
+    command->add_flag("--quiet", options.quiet, "No progress");
     command->footer("Example:\n  lumulus cloud cumulus -o cumulus.vdb --resolution 256 --seed 7");
     command->callback([&options, &action] { action = [&options] { runCloud(options); }; });
 }
@@ -69,7 +80,7 @@ void addInfo(CLI::App& app, InfoOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("info", "Show the grids of an OpenVDB file, or the devices");
     command->add_option("file", options.file, "OpenVDB file");
     command->add_flag("--devices", options.devices, "List the Vulkan devices");
-    command->add_flag("--scene-format", options.sceneFormat)->group("");  // for docs/scene-format.md
+    command->add_flag("--scene-format", options.sceneFormat, "Show all keys of scene files, as Markdown");
     command->add_flag("--json", options.json, "As JSON");
     command->footer("Example:\n  lumulus info cloud.vdb\n  lumulus info --devices --json");
     command->callback([&options, &action] { action = [&options] { runInfo(options); }; });
@@ -122,7 +133,9 @@ void addSlab(CLI::App& app, SlabOptions& options, Action& action) {
     command->add_option("--mu0", options.slab.mu0, "Cosine of the angle of incidence")->required();
     command->add_option("--photons", options.slab.photons, "Photons to trace")->capture_default_str();
     command->add_option("--seed", options.slab.seed, "Seed of the random numbers")->check(seedRange());
-    command->add_option("--device", options.device, "Vulkan device: index or part of its name");
+    CLI::Option* device = addDevice(*command, options.device);
+    command->add_flag("--reference", options.reference, "By the tracer of `reference`, on the CPU, as a check")
+        ->excludes(device);
     command->add_flag("--json", options.json, "As JSON");
     command->footer("Example:\n  lumulus slab --tau 2 --g 0.75 --albedo 0.9 --mu0 1 --json");
     command->callback([&options, &action] { action = [&options] { runSlab(options); }; });
@@ -132,7 +145,7 @@ void addBench(CLI::App& app, BenchOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("bench", "Measure error against run time, of render and of the path tracer");
     command->add_option("scene", options.scene, "Scene file (TOML)")->required();
     command->add_option("--reference", options.reference, "Reference (.exr), of the scene's size")->required();
-    command->add_option("-o,--output", options.output, "Folder for error.csv and error.svg")->required();
+    command->add_option("-o,--output", options.output, "Folder for error.csv, error.svg and error.png")->required();
     command->add_option("--seconds", options.seconds, "Times to run for, without warm-up (0.1,0.3,1,3,10)")
         ->delimiter(',');
     command->add_option("--seeds", options.seeds, "Pictures for each time")
@@ -140,10 +153,17 @@ void addBench(CLI::App& app, BenchOptions& options, Action& action) {
         ->capture_default_str();
     command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
         ->allow_extra_args(false);
-    command->add_option("--device", options.device, "Name (a part is enough) or index of a device, see info --devices");
+    addDevice(*command, options.device);
     command->add_flag("--quiet", options.quiet, "No progress");
     command->footer("Example:\n  lumulus bench configs/scenes/cumulus.toml --reference truth.exr -o bench");
     command->callback([&options, &action] { action = [&options] { runBench(options); }; });
+}
+
+/// `lumulus nonsense --help` has no help to give; CLI11 would give the general one.
+void refuseUnknownCommand(const CLI::App& app) {
+    const std::vector<std::string> unknown = app.remaining();
+    if (app.get_subcommands().empty() && !unknown.empty())
+        throw InputError("unknown command \"" + unknown.front() + "\"", "command line", "see lumulus --help");
 }
 
 /// Parses and runs. CLI11's own errors become bad usage; asking for help or the version does not fail.
@@ -170,6 +190,7 @@ void parseAndRun(int argc, const char* const* argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success&) {
+        refuseUnknownCommand(app);
         printOut(app.count("--version") > 0 ? app.version() + "\n" : app.help());
         return;
     } catch (const CLI::ParseError& e) {
@@ -183,7 +204,6 @@ void parseAndRun(int argc, const char* const* argv) {
 }  // namespace
 
 int run(int argc, const char* const* argv) {
-    installSignalHandlers();
     try {
         parseAndRun(argc, argv);
         return 0;

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "base/error.h"
 #include "base/exr.h"
 #include "base/png.h"
 #include "base/tonemap.h"
@@ -96,6 +98,10 @@ LayeredImage meanOf(LayeredImage a, const LayeredImage& b) {
 }  // namespace
 
 void runCompare(const CompareOptions& options) {
+    // the range of the option lets NaN through
+    if (std::isnan(options.exposure)) {
+        throw InputError("the exposure is not a number", "--exposure", "give a number of stops");
+    }
     if (!options.diff.empty()) {
         requireSuffix(options.diff, {".png", ".exr"});
         checkWritable(options.diff);

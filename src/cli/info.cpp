@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "cli/output.h"
 #include "gpu/device.h"
 #include "scene/document.h"
@@ -34,11 +35,17 @@ std::string devicesJson(const std::vector<gpu::DeviceInfo>& devices) {
     return dumped({{"devices", list}});
 }
 
+/// Text of a file or a driver, for people: a terminal takes no harm from it.
+std::string shown(const std::string& name) {
+    return shortened(oneLine(name), 300);
+}
+
 std::string devicesText(const std::vector<gpu::DeviceInfo>& devices) {
     std::string text;
     for (const gpu::DeviceInfo& device : devices) {
-        text += fmt::format("{}  {} ({}), driver {}, Vulkan {}, {:.2f} GiB\n", device.index, device.name, device.type,
-                            device.driver, device.apiVersion, static_cast<double>(device.heapBytes) / 1073741824.0);
+        text += fmt::format("{}  {} ({}), driver {}, Vulkan {}, {:.2f} GiB\n", device.index, shown(device.name),
+                            device.type, shown(device.driver), device.apiVersion,
+                            static_cast<double>(device.heapBytes) / 1073741824.0);
     }
     return text;
 }
@@ -74,7 +81,7 @@ std::string gridsText(const std::vector<vdb::GridInfo>& grids) {
     std::string text;
     for (const vdb::GridInfo& grid : grids) {
         const glm::ivec3 extent = grid.activeMaximum - grid.activeMinimum + 1;
-        text += fmt::format("{}: {}, {}{}\n", grid.name, grid.type, grid.gridClass,
+        text += fmt::format("{}: {}, {}{}\n", shown(grid.name), shown(grid.type), grid.gridClass,
                             grid.affine ? "" : ", transform not affine");
         text +=
             fmt::format("  voxels    {} active, in {} x {} x {}\n", grid.activeVoxels, extent.x, extent.y, extent.z);
@@ -95,7 +102,7 @@ std::string gridsText(const std::vector<vdb::GridInfo>& grids) {
 void runInfo(const InfoOptions& options) {
     const int wanted = (options.file.empty() ? 0 : 1) + (options.devices ? 1 : 0) + (options.sceneFormat ? 1 : 0);
     if (wanted != 1) {
-        throw InputError("info shows one thing", "command line", "give an OpenVDB file or --devices");
+        throw InputError("info shows one thing", "command line", "give an OpenVDB file, --devices or --scene-format");
     }
     if (options.sceneFormat) {
         printOut(scene::sceneFormatMarkdown());

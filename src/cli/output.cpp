@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
+#include <system_error>
 
 #include "base/error.h"
 
@@ -27,7 +29,8 @@ void requireSuffix(const std::filesystem::path& path, std::initializer_list<std:
 
 void printOut(std::string_view text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-        throw Error("cannot write to standard output", "", "is the disk full or the pipe closed?");
+        throw Error("cannot write: " + std::generic_category().message(errno), "standard output",
+                    "free some space, or give it a place that is open");
     }
 }
 

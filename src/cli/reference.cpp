@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -37,8 +38,13 @@ void checkOptions(const ReferenceOptions& options) {
     if (options.spp.has_value() == options.seconds.has_value()) {
         throw InputError("the reference does not know when to stop", "command line", "give either --spp or --seconds");
     }
+    // the range of the option lets NaN through
+    if (options.seconds && std::isnan(*options.seconds)) {
+        throw InputError("the time to stop is not a number", "--seconds", "give a number of seconds");
+    }
     requireSuffix(options.output, {".exr"});
     checkWritable(options.output);
+    checkWritable(reference::sumsBeside(options.output));
 }
 
 reference::Renderer rendererOf(const ReferenceOptions& options, const scene::Scene& scene) {

@@ -29,17 +29,28 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+bool statsToFile(const RenderOptions& options) {
+    return !options.stats.empty() && options.stats != "-";
+}
+
+/// Throws where two outputs are one file, by whatever names.
+void checkDistinct(const std::vector<std::filesystem::path>& outputs) {
+    std::set<std::filesystem::path> files;
+    for (const auto& output : outputs) {
+        std::error_code ec;
+        const std::filesystem::path file = std::filesystem::weakly_canonical(output, ec);
+        if (!files.insert(ec ? output.lexically_normal() : file).second)
+            throw InputError("the same output is given twice", output.string(), "give each output a name of its own");
+    }
+}
+
 /// Everything that can be known to fail later fails here, before the work.
 void checkOutputs(const RenderOptions& options) {
-    std::set<std::string> names;
-    for (const auto& output : options.outputs) {
-        requireSuffix(output, {".exr", ".png"});
-        if (!names.insert(output.lexically_normal().string()).second) {
-            throw InputError("the same output is given twice", output.string(), "give each -o a name of its own");
-        }
-    }
-    for (const auto& output : options.outputs) checkWritable(output);
-    if (!options.stats.empty() && options.stats != "-") checkWritable(options.stats);
+    std::vector<std::filesystem::path> outputs = options.outputs;
+    for (const auto& output : outputs) requireSuffix(output, {".exr", ".png"});
+    if (statsToFile(options)) outputs.emplace_back(options.stats);
+    checkDistinct(outputs);
+    for (const auto& output : outputs) checkWritable(output);
 }
 
 scene::Scene sceneOf(const RenderOptions& options) {
@@ -48,19 +59,13 @@ scene::Scene sceneOf(const RenderOptions& options) {
     return scene::loadScene(options.scene, overrides, options.quality);
 }
 
-void stopIfInterrupted() {
-    if (interrupted()) throw Error("interrupted", "", "nothing was written");
-}
-
-LayeredImage renderFrame(Renderer& renderer, bool quiet) {
-    const int generations = renderer.generationsWanted();
-    {
-        Progress progress("photons", static_cast<std::uint64_t>(generations), quiet);
-        for (int generation = 0; generation < generations; ++generation) {
-            stopIfInterrupted();
-            renderer.traceGeneration();
-            progress.advance();
-        }
+LayeredImage renderFrame(Renderer& renderer, Steps& steps) {
+    const auto generations = static_cast<std::uint64_t>(renderer.generationsWanted());
+    steps.report("photons", 0, generations);
+    for (std::uint64_t done = 0; done < generations; ++done) {
+        stopIfInterrupted();
+        renderer.traceGeneration();
+        steps.report("photons", done + 1, generations);
     }
     stopIfInterrupted();
     LayeredImage image = renderer.draw();
@@ -68,7 +73,8 @@ LayeredImage renderFrame(Renderer& renderer, bool quiet) {
     return image;
 }
 
-void writeOutputs(const RenderOptions& options, const LayeredImage& image, double exposure) {
+void writeOutputs(const RenderOptions& options, const LayeredImage& image, double exposure, Steps& steps) {
+    steps.report("writing", 0, 1);
     for (const auto& output : options.outputs) {
         if (hasSuffix(output, ".exr")) {
             writeExr(output, image);
@@ -76,6 +82,7 @@ void writeOutputs(const RenderOptions& options, const LayeredImage& image, doubl
             writePng(output, image.width, image.height, toneMap(image, exposure));
         }
     }
+    steps.report("writing", 1, 1);
 }
 
 void writeStats(const std::string& where, const std::string& json) {
@@ -93,8 +100,9 @@ void runRender(const RenderOptions& options) {
     checkOutputs(options);
     const scene::Scene scene = sceneOf(options);
 
-    Renderer renderer(scene, RendererOptions{options.device, options.validate});
-    LayeredImage image = renderFrame(renderer, options.quiet);
+    Steps steps(options.quiet);
+    Renderer renderer(scene, RendererOptions{options.device, options.validate, steps.reporter()});
+    LayeredImage image = renderFrame(renderer, steps);
     const Statistics statistics = renderer.statistics();
     for (const std::string& warning : statistics.warnings) logWarning(warning);
 
@@ -106,7 +114,7 @@ void runRender(const RenderOptions& options) {
     image.attributes["seconds"] = std::to_string(secondsSince(start));
 
     const Clock::time_point writing = Clock::now();
-    writeOutputs(options, image, scene.image.exposure);
+    writeOutputs(options, image, scene.image.exposure, steps);
     const double writeSeconds = secondsSince(writing);
     writeStats(options.stats, statisticsJson(statistics, writeSeconds, secondsSince(start)));
     if (options.validate && !statistics.validationMessages.empty()) {

@@ -61,7 +61,7 @@ struct PrepareOptions {
 };
 
 /// Steps 1 to 5 of the preparation: gradient, samples, kD-tree, leaf statistics, collectors. `volume` must not be
-/// empty.
+/// empty. Errors: Error where interrupted.
 Cloud prepare(gpu::Context& context, const vdb::Volume& volume, const PrepareOptions& options);
 
 /// Majorants on cells of `edge` blocks, or a single one for the whole volume (edge 0), from those of the blocks.

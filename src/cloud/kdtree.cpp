@@ -8,6 +8,8 @@
 #include <limits>
 #include <queue>
 
+#include "base/interrupt.h"
+
 namespace lumulus::cloud {
 
 namespace {
@@ -136,6 +138,7 @@ class Builder {
     }
 
     void splitLevel() {
+        stopIfInterrupted();
         std::vector<Split> splits(open_.size());
         tbb::parallel_for(std::size_t{0}, open_.size(), [&](std::size_t i) {
             const auto samples = samplesOf(open_[i]);
@@ -185,6 +188,7 @@ class Builder {
 
     void finalise() {
         for (std::size_t i = 0; i < done_.size(); ++i) {
+            stopIfInterrupted();
             for (Split slab = uncoveredSlab(done_[i]); slab.axis >= 0 && !full(); slab = uncoveredSlab(done_[i])) {
                 const auto [first, second] = divide(done_[i], slab, false);
                 const bool samplesFirst = slab.middle > 0;
@@ -221,6 +225,7 @@ class Builder {
         };
         for (std::size_t i = 0; i < done_.size(); ++i) push(i);
         while (!queue.empty() && !full()) {
+            stopIfInterrupted();
             const std::size_t i = queue.top().second;
             queue.pop();
             const LeafBox box = done_[i].box;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
 
+#include "base/interrupt.h"
 #include "cloud/cloud.h"
 #include "gpu/commands.h"
 #include "gpu/groups.h"
@@ -29,9 +30,11 @@ constexpr double globalMajorantLimit = 4.0;
 /// Edge of a majorant cell, in blocks.
 constexpr int majorantCell = 2;
 
+/// Times the steps of the preparation, and lets Ctrl-C end it between two of them.
 class Stopwatch {
   public:
     double lap() {
+        stopIfInterrupted();
         const auto now = std::chrono::steady_clock::now();
         const double seconds = std::chrono::duration<double>(now - start_).count();
         start_ = now;

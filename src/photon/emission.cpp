@@ -39,8 +39,11 @@ Emission makeEmission(const scene::Sun& sun, const scene::Sky& sky, const glm::d
     return emission;
 }
 
-glm::dmat3 faceAreas(const glm::dmat3& edges) {
-    return {glm::cross(edges[1], edges[2]), glm::cross(edges[2], edges[0]), glm::cross(edges[0], edges[1])};
+glm::dmat3 faceAreas(const glm::dmat3& voxelEdges, const glm::dvec3& size) {
+    const glm::dmat3 edges(voxelEdges[0] * size.x, voxelEdges[1] * size.y, voxelEdges[2] * size.z);
+    const glm::dmat3 areas(glm::cross(edges[1], edges[2]), glm::cross(edges[2], edges[0]),
+                           glm::cross(edges[0], edges[1]));
+    return glm::determinant(edges) < 0.0 ? -areas : areas;
 }
 
 }  // namespace lumulus::photon

@@ -25,7 +25,8 @@ struct Emission {
 /// Light that enters a box whose faces have these area vectors [m²] (one of each pair).
 Emission makeEmission(const scene::Sun& sun, const scene::Sky& sky, const glm::dmat3& faceArea);
 
-/// Area vectors of the faces of an affine box with the given edges (columns) [m].
-glm::dmat3 faceAreas(const glm::dmat3& edges);
+/// Area vectors [m²] of the faces across x, y and z of a box of `size` voxels with the given edges (columns) [m]. They
+/// point the way of the edges, in a mirrored volume too.
+glm::dmat3 faceAreas(const glm::dmat3& voxelEdges, const glm::dvec3& size);
 
 }  // namespace lumulus::photon

@@ -10,6 +10,7 @@
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
 #include "photon/emission.h"
+#include "photon/map_limits.h"
 #include "photon/trace_program.h"
 #include "shared/photon.h"
 #include "shared/rng.h"
@@ -64,6 +65,13 @@ std::uint32_t capacityFor(std::uint64_t photons, std::uint32_t invocations) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, roundRecords / invocations));
 }
 
+/// Of all collectors together, where there is room for them.
+std::uint32_t coefficientsOf(const gpu::Context& context, std::uint32_t collectors, const Options& options) {
+    const MapSize size{collectors, options.bands, options.generations, options.keepRing};
+    requireMapFits(size, options.memoryBudget, context.limits().maxStorageBufferRange);
+    return static_cast<std::uint32_t>(generationBytes(size) / sizeof(std::int64_t));
+}
+
 }  // namespace
 
 struct PhotonMap::State {
@@ -78,7 +86,7 @@ struct PhotonMap::State {
     std::uint32_t coefficients;  // of all collectors
     std::uint32_t invocations;
     std::uint32_t recordCapacity;
-    glm::dmat3 faceArea{0.0};
+    glm::dmat3 faceArea;
 
     Program<gpu::NoPush> traceProgram;
     Program<shared::GatherPush> scanProgram, scatterProgram, gatherProgram;
@@ -111,9 +119,10 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Cloud& preparedCl
       medium(theMedium),
       options(theOptions),
       collectors(static_cast<std::uint32_t>(cloud.collectors.size())),
-      coefficients(collectors * 3U * static_cast<std::uint32_t>(options.bands * options.bands)),
+      coefficients(coefficientsOf(context, collectors, options)),
       invocations(invocationsFor(context, options.photonsPerGeneration)),
       recordCapacity(capacityFor(options.photonsPerGeneration, invocations)),
+      faceArea(faceAreas(cloud.toWorld.linear, glm::dvec3(cloud.size))),
       traceProgram(context, "trace", traceSpirv(), traceConstants(medium.tables, medium.albedo, false)),
       scanProgram(context, "scan", spirv::scan_comp),
       scatterProgram(context, "scatter", spirv::scatter_comp),
@@ -140,11 +149,6 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Cloud& preparedCl
       saturated(context, "saturated", sizeof(std::uint32_t), Memory::host),
       radiance(context, "collector radiance", collectors * sizeof(glm::vec3), Memory::device),
       commands(context) {
-    const glm::dmat3& linear = cloud.toWorld.linear;
-    faceArea = faceAreas({linear[0] * static_cast<double>(cloud.size.x), linear[1] * static_cast<double>(cloud.size.y),
-                          linear[2] * static_cast<double>(cloud.size.z)});
-    // The volume may be mirrored; area vectors point along +x, +y, +z of the volume all the same.
-    if (glm::determinant(linear) < 0.0) faceArea *= -1.0;
     if (options.keepRing)
         for (int i = 0; i < options.generations; ++i)
             slots.emplace_back(context, "ring slot " + std::to_string(i), coefficients * sizeof(std::int64_t),
@@ -298,6 +302,7 @@ void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
         }
         s.params.mapped<shared::TraceParams>()[0] = s.traceParams(emission, sun, unitExponent);
         resetStates(s.states.mapped<shared::TraceState>().subspan(0, s.invocations));
+        const std::uint64_t recordsBefore = s.counters.records;
         do {
             if (interrupted()) throw Error("interrupted", "", "nothing was written");
             s.traceRound();
@@ -308,6 +313,7 @@ void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
             s.counters.escaped += c.escaped;
             s.counters.lost += c.lost;
             s.counters.records += c.records;
+            requireCountable(s.counters.records - recordsBefore);
         } while (s.counterBuffer.mapped<shared::TraceCounters>()[0].pending > 0);
         s.counters.emitted += s.options.photonsPerGeneration;
     }

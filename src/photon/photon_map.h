@@ -30,6 +30,7 @@ struct Options {
     /// Whether generations beyond the p-th will replace the oldest. A picture that stops at p needs no slots: they are
     /// the bulk of the memory.
     bool keepRing = false;
+    std::uint64_t memoryBudget = std::uint64_t{1} << 30U;  ///< bytes for all coefficients
 };
 
 /// Sums over all generations traced.
@@ -41,7 +42,8 @@ struct Counters {
 /// their exact sum.
 class PhotonMap {
   public:
-    /// `cloud` must outlive the map. Errors: InputError where the ring does not fit into the device's memory.
+    /// `cloud` must outlive the map. Errors: InputError where the coefficients do not fit into the budget, or those of
+    /// one generation into a buffer of the device.
     PhotonMap(gpu::Context& context, const cloud::Cloud& cloud, const Medium& medium, const Options& options);
     ~PhotonMap();
 

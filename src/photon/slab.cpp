@@ -37,6 +37,7 @@ void require(bool good, const char* key, double value, const char* range) {
 void check(const Slab& slab) {
     require(slab.tau >= 0.0 && slab.tau <= 1e7, "--tau", slab.tau, "0…1e7");
     require(slab.albedo >= 0.0 && slab.albedo <= 1.0, "--albedo", slab.albedo, "0…1");
+    require(std::abs(slab.phase.g) < 1.0, "--g", slab.phase.g, "(-1, 1)");
     require(slab.mu0 > 0.0 && slab.mu0 <= 1.0, "--mu0", slab.mu0, "(0, 1]");
     if (slab.photons == 0 || slab.photons > (1ULL << 40U))
         throw InputError("the number of photons must lie in 1…2^40", "--photons", "ask for some millions");

@@ -30,6 +30,34 @@ double meanPosition(double tau) {
     return 1.0 / tau - 1.0 / std::expm1(tau);
 }
 
+/// Density on the ray, which rounding may have taken just out of the box.
+double densityAt(const Medium& medium, const VoxelRay& ray, double metres) {
+    return medium.density(glm::clamp(ray.at(metres), glm::dvec3(0.0), glm::dvec3(medium.size())));
+}
+
+/// Calls `visit` for the pieces of the ray between planes of voxel centres, nearest first, until it returns false.
+template <typename Visit>
+void eachPiece(const Medium& medium, const VoxelRay& ray, Visit&& visit) {
+    const std::optional<Interval> inside = medium.clip(ray);
+    if (!inside) return;
+    glm::dvec3 next(std::numeric_limits<double>::infinity()), stride(next);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (ray.step[axis] == 0.0) continue;
+        const double sign = std::copysign(1.0, ray.step[axis]);
+        const double from = ray.at(inside->begin)[axis] - 0.5;
+        const double plane = (sign > 0.0 ? std::floor(from) + 1.0 : std::ceil(from) - 1.0) + 0.5;
+        next[axis] = (plane - ray.origin[axis]) / ray.step[axis];
+        stride[axis] = 1.0 / std::abs(ray.step[axis]);
+    }
+    for (double t = inside->begin; t < inside->end;) {
+        const int axis = next.x < next.y ? (next.x < next.z ? 0 : 2) : (next.y < next.z ? 1 : 2);
+        const double end = std::clamp(next[axis], t, inside->end);
+        next[axis] += stride[axis];
+        if (!visit(Interval{t, end})) return;
+        t = end;
+    }
+}
+
 }  // namespace
 
 Medium::Medium(const vdb::Volume& volume, double extinction)
@@ -90,36 +118,30 @@ std::optional<Interval> Medium::clip(const VoxelRay& ray) const {
 
 LineIntegrals integrateAlong(const Medium& medium, const VoxelRay& ray) {
     LineIntegrals result;
-    const std::optional<Interval> inside = medium.clip(ray);
-    if (!inside) return result;
-    const glm::dvec3 size(medium.size());
-    // pieces end where the ray crosses a plane of voxel centres
-    glm::dvec3 next(std::numeric_limits<double>::infinity()), stride(next);
-    for (int axis = 0; axis < 3; ++axis) {
-        if (ray.step[axis] == 0.0) continue;
-        const double sign = std::copysign(1.0, ray.step[axis]);
-        const double from = ray.at(inside->begin)[axis] - 0.5;
-        const double plane = (sign > 0.0 ? std::floor(from) + 1.0 : std::ceil(from) - 1.0) + 0.5;
-        next[axis] = (plane - ray.origin[axis]) / ray.step[axis];
-        stride[axis] = 1.0 / std::abs(ray.step[axis]);
-    }
     constexpr double gauss = 0.28867513459481287;  // 1/(2√3)
-    for (double t = inside->begin; t < inside->end && result.transmittance > 0.0;) {
-        const int axis = next.x < next.y ? (next.x < next.z ? 0 : 2) : (next.y < next.z ? 1 : 2);
-        const double end = std::clamp(next[axis], t, inside->end);
-        next[axis] += stride[axis];
-        const double length = end - t, middle = 0.5 * (t + end);
-        const auto densityAt = [&](double at) { return medium.density(glm::clamp(ray.at(at), glm::dvec3(0.0), size)); };
-        const double tau = 0.5 * length * medium.extinctionScale() *
-                           (densityAt(middle - gauss * length) + densityAt(middle + gauss * length));
+    eachPiece(medium, ray, [&](const Interval& piece) {
+        const double length = piece.end - piece.begin, middle = 0.5 * (piece.begin + piece.end);
+        const double tau =
+            0.5 * length * medium.extinctionScale() *
+            (densityAt(medium, ray, middle - gauss * length) + densityAt(medium, ray, middle + gauss * length));
         if (tau > 0.0) {
             const double collided = -std::expm1(-tau);
-            result.distance += result.transmittance * collided * (t + length * meanPosition(tau));
+            result.distance += result.transmittance * collided * (piece.begin + length * meanPosition(tau));
             result.transmittance *= 1.0 - collided;
         }
-        t = end;
-    }
+        return result.transmittance > 0.0;
+    });
     return result;
+}
+
+std::optional<double> frontAlong(const Medium& medium, const VoxelRay& ray) {
+    std::optional<double> front;
+    eachPiece(medium, ray, [&](const Interval& piece) {
+        // corners that have a share in the middle of a piece have one all along it
+        if (densityAt(medium, ray, 0.5 * (piece.begin + piece.end)) > 0.0) front = piece.begin;
+        return !front;
+    });
+    return front;
 }
 
 }  // namespace lumulus::reference

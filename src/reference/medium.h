@@ -93,4 +93,7 @@ struct LineIntegrals {
 /// Gauss's two points integrate exactly; the distance takes σt as constant within each such piece.
 LineIntegrals integrateAlong(const Medium& medium, const VoxelRay& ray);
 
+/// Metres from the ray's origin to where it first meets a density above 0; absent where it meets none.
+std::optional<double> frontAlong(const Medium& medium, const VoxelRay& ray);
+
 }  // namespace lumulus::reference

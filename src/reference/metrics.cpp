@@ -1,5 +1,7 @@
 #include "reference/metrics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -71,7 +73,7 @@ struct Mean {
     }
     Measure over(double count, bool noiseKnown) const {
         Measure measure{sum / count, {}};
-        if (noiseKnown) measure.standardError = std::sqrt(variance) / std::abs(count);
+        if (noiseKnown) measure.standardError = std::sqrt(variance) / count;
         return measure;
     }
 };
@@ -111,18 +113,23 @@ struct Point {
     }
 };
 
+/// Against a black reference nothing is 0 and everything else infinite.
+double ratio(double value, double scale) {
+    return value == 0.0 ? 0.0 : value / scale;
+}
+
 void addPoint(Sums& sums, const Point& p, double mean) {
     const double reference = p.reference(), difference = p.image - reference;
     const double deviation = std::sqrt(p.imageVariance + p.referenceVariance());
     const double squareDeviation = std::sqrt(p.squareVariance());
-    const double weight = 1.0 / (reference * reference + relativeFloor * mean * mean);
-    const double share = 1.0 / (std::abs(reference) + relativeFloor * std::abs(mean));
+    const double square = reference * reference + relativeFloor * mean * mean;
+    const double level = std::abs(reference) + relativeFloor * std::abs(mean);
     sums.square.add(p.square(), squareDeviation);
-    sums.relative.add(weight * p.square(), weight * squareDeviation);
+    sums.relative.add(ratio(p.square(), square), ratio(squareDeviation, square));
     sums.signedDifference.add(difference, deviation);
-    sums.percentage.add(share * std::abs(difference), share * deviation);
-    sums.imageNoise += weight * p.imageVariance;
-    sums.referenceNoise += weight * p.referenceVariance();
+    sums.percentage.add(ratio(std::abs(difference), level), ratio(deviation, level));
+    sums.imageNoise += ratio(p.imageVariance, square);
+    sums.referenceNoise += ratio(p.referenceVariance(), square);
 }
 
 Measure rootOf(const Measure& square) {
@@ -168,7 +175,9 @@ Comparison compareAll(const LayeredImage& image, const LayeredImage& a, const La
     result.rmse = rootOf(sums.square.over(count, known));
     result.relMse = sums.relative.over(count, known);
     result.bias = sums.signedDifference.over(count, known);
-    result.relativeBias = sums.signedDifference.over(count * (mean != 0.0 ? mean : 1.0), known);
+    result.relativeBias = sums.signedDifference.over(count, known);
+    result.relativeBias.value = ratio(result.relativeBias.value, mean);
+    if (known) result.relativeBias.standardError = ratio(*result.relativeBias.standardError, std::abs(mean));
     result.mape = sums.percentage.over(count, known);
     if (imageKnown) result.imageNoise = sums.imageNoise / count;
     if (referenceKnown) result.referenceNoise = sums.referenceNoise / count;
@@ -177,7 +186,7 @@ Comparison compareAll(const LayeredImage& image, const LayeredImage& a, const La
 
 /// Refuses what arithmetic would spread over the whole result.
 void requireNumbers(const NamedImage& named) {
-    std::vector<std::string> used;
+    std::vector<std::string> used{"sun.disc"};
     for (const char* channel : channels) {
         used.emplace_back(channel);
         used.push_back(std::string("variance.") + channel);
@@ -189,12 +198,15 @@ void requireNumbers(const NamedImage& named) {
             if (name.size() > 1) continue;
             throw InputError("the picture has no layer " + name, named.name, "give one with R, G and B");
         }
+        const bool mayBeNegative = !name.starts_with("variance.");
         for (std::size_t i = 0; i < found->second.size(); ++i) {
-            if (std::isfinite(found->second[i])) continue;
+            const float value = found->second[i];
+            if (std::isfinite(value) && (mayBeNegative || value >= 0.0F)) continue;
             const auto width = static_cast<std::size_t>(named.image.width);
-            throw InputError("layer " + name + " is not a finite number at x " + std::to_string(i % width) + ", y " +
-                                 std::to_string(i / width),
-                             named.name, "render the picture again");
+            throw InputError(
+                fmt::format("layer {} is {} at x {}, y {}", name,
+                            std::isfinite(value) ? "below 0" : "not a finite number", i % width, i / width),
+                named.name, "render the picture again");
         }
     }
 }

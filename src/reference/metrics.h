@@ -23,7 +23,7 @@ struct Comparison {
     Measure relMse;        ///< mean d² / (R² + .01·mean(R)²)
     Measure bias;          ///< mean d
     Measure relativeBias;  ///< mean d / mean R
-    Measure mape;          ///< mean |d| / (|R| + .01·mean R)
+    Measure mape;          ///< mean |d| / (|R| + .01·mean R); relative measures of black pictures are 0 or infinite
     /// The relMSE that noise alone makes, by the variance layers of the picture and of the reference.
     std::optional<double> imageNoise, referenceNoise;
 };
@@ -34,8 +34,8 @@ struct NamedImage {
     std::string name;
 };
 
-/// Errors: InputError where a picture has no layers R, G, B, where a layer that is used holds NaN or infinity (it says
-/// which layer and where), and where sizes differ.
+/// Errors: InputError where a picture has no layers R, G, B, where a layer that is used holds NaN or infinity, or a
+/// variance below 0 (it says which layer and where), and where sizes differ.
 void requireComparable(const NamedImage& image, const NamedImage& reference);
 
 /// The measures against one reference. Standard errors take pixels as independent and the channels of a pixel as fully

@@ -116,7 +116,13 @@ bool Renderer::pass(const Continue& goOn) {
 }
 
 LayeredImage Renderer::picture() const {
-    return reference::picture(film_, tracer_.sky(), discRadiance_);
+    LayeredImage image = reference::picture(film_, tracer_.sky(), discRadiance_);
+    std::vector<float>& front = image.layer("depth.front");
+    tbb::parallel_for(0, film_.width * film_.height, [&](int pixel) {
+        const Ray middle = camera_.ray(pixel % film_.width + 0.5, pixel / film_.width + 0.5);
+        front[static_cast<std::size_t>(pixel)] = static_cast<float>(tracer_.front(middle).value_or(farDepth));
+    });
+    return image;
 }
 
 }  // namespace lumulus::reference

@@ -31,7 +31,8 @@ class Renderer {
     /// Of everything that the film depends on.
     std::uint64_t fingerprint() const { return fingerprint_; }
 
-    /// The layers of the film; at least one sample.
+    /// The layers of the film (at least one sample), and depth.front: metres along the ray through the pixel's middle
+    /// to the nearest point where there is cloud, farDepth where there is none.
     LayeredImage picture() const;
 
   private:

@@ -3,10 +3,11 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <vector>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "reference/phase.h"
 
 namespace lumulus::reference {
@@ -85,8 +86,9 @@ void check(const Slab& slab) {
     };
     require(slab.tau >= 0.0 && slab.tau <= 1e9, "tau", "give an optical thickness from 0 to 1e9");
     require(slab.albedo >= 0.0 && slab.albedo <= 1.0, "albedo", "give a number from 0 to 1");
+    require(std::abs(slab.phase.g) < 1.0, "g", "give an asymmetry above -1, below 1");
     require(slab.mu0 > 0.0 && slab.mu0 <= 1.0, "mu0", "give a cosine above 0, at most 1");
-    require(slab.photons > 0, "photons", "give at least 1");
+    require(slab.photons > 0 && slab.photons <= (1ULL << 40U), "photons", "give a number from 1 to 2^40");
 }
 
 }  // namespace
@@ -96,12 +98,19 @@ SlabResult solveSlab(const Slab& slab) {
     const PhaseFunction phase(slab.phase);
     const double collided = -std::expm1(-slab.tau / slab.mu0);
     constexpr std::uint64_t chunk = 4096;
-    std::vector<Sums> chunks((slab.photons + chunk - 1) / chunk);
-    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
-        chunks[i] = traceChunk(slab, phase, collided, i * chunk, std::min((i + 1) * chunk, slab.photons));
-    });
+    const std::uint64_t chunks = (slab.photons + chunk - 1) / chunk;
+    // so many at once that threads have work, and so few that Ctrl-C does not wait
+    std::array<Sums, 64> block;
     Sums sums;
-    for (const Sums& part : chunks) sums.add(part);
+    for (std::uint64_t begin = 0; begin < chunks; begin += block.size()) {
+        if (interrupted()) throw Error("interrupted", "", "nothing was written");
+        const std::uint64_t count = std::min<std::uint64_t>(block.size(), chunks - begin);
+        tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) {
+            const std::uint64_t first = (begin + i) * chunk;
+            block[i] = traceChunk(slab, phase, collided, first, std::min(first + chunk, slab.photons));
+        });
+        for (std::uint64_t i = 0; i < count; ++i) sums.add(block[i]);
+    }
     const auto count = static_cast<double>(slab.photons);
     SlabResult result;
     result.transmittedDirect.value = std::exp(-slab.tau / slab.mu0);

@@ -31,7 +31,8 @@ struct SlabResult {
 };
 
 /// Traces photons through the layer. All of them collide at least once; the rest is the direct transmission. The same
-/// seed gives the same bits on any number of threads. Errors: InputError for values out of range.
+/// seed gives the same bits on any number of threads. Errors: InputError for values out of range, Error where
+/// interrupted.
 SlabResult solveSlab(const Slab& slab);
 
 }  // namespace lumulus::reference

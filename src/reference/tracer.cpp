@@ -114,6 +114,10 @@ LineIntegrals PathTracer::integrate(const Ray& ray) const {
     return cloud_ ? integrateAlong(cloud_->medium, cloud_->medium.toVoxel(ray)) : LineIntegrals{};
 }
 
+std::optional<double> PathTracer::front(const Ray& ray) const {
+    return cloud_ ? frontAlong(cloud_->medium, cloud_->medium.toVoxel(ray)) : std::nullopt;
+}
+
 glm::dvec3 PathTracer::discRadiance(const glm::dvec3& direction) const {
     return oneMinusCosBetween(direction, sunDirection_) < sunCone_ ? sunRadiance_ : glm::dvec3(0.0);
 }

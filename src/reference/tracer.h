@@ -38,6 +38,9 @@ class PathTracer {
     /// Transmittance and mean distance without noise.
     LineIntegrals integrate(const Ray& ray) const;
 
+    /// Metres to the nearest point of the ray where there is cloud; absent where there is none.
+    std::optional<double> front(const Ray& ray) const;
+
     /// What the disc of the sun adds to a ray that meets nothing; 0 beside it.
     glm::dvec3 discRadiance(const glm::dvec3& direction) const;
 

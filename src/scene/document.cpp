@@ -12,16 +12,17 @@ constexpr std::string_view introduction = R"(# The scene file
 Made by `lumulus info --scene-format > docs/scene-format.md`; a test compares the two. Do not edit by hand.
 
 A scene is a [TOML](https://toml.io) file of at most 1 MiB. Every key has a default: an empty file renders the
-procedural cumulus under a sun and a blue sky. Unknown keys, wrong types and values out of range are errors that name
-the key and the line. Numbers may be written as integers; `1e6` may stand for a whole number. NaN and infinity are
-refused everywhere.
+procedural cumulus under a sun and a blue sky. Unknown keys, wrong types, values out of range and parameters that the
+chosen phase function does not have are errors that name the key and the line. Numbers may be written as integers; `1e6`
+may stand for a whole number. NaN and infinity are refused everywhere.
 
 - Units: metres, degrees, W/m² and W/(m² sr) per channel of linear Rec. 709. Right-handed, +Y is up.
 - Paths are relative to the scene file.
 - `[[cloud]]` stands in two brackets. This version renders one cloud; `cloud = []` is a scene without any.
 - `--set section.key=value` overrides a key, `--set cloud.0.extinction=0.2` one of the cloud. The value is TOML, or
   else a bare string: `--set draw.mode=march`. An override of one of two keys that exclude each other (`sun.azimuth`,
-  `sun.direction_to`; `cloud.0.vdb`, `cloud.0.procedural`) takes the file's other one out.
+  `sun.direction_to`; `cloud.0.vdb`, `cloud.0.procedural`) takes the file's other one out; one of
+  `cloud.0.phase.model` takes out the parameters that it does not have.
 - `--quality` stands below the file: it changes only what the scene leaves out.
 
 | quality | photons | generations | bands |

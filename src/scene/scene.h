@@ -99,6 +99,7 @@ struct PhotonMap {
     int bands = 5;
     double forwardCut = 12.0;  ///< degrees; 0 = off
     Majorant majorant = Majorant::automatic;
+    double memoryBudget = 1024.0;  ///< MiB for the light that collectors hold
     std::uint64_t seed = 1;
 
     bool operator==(const PhotonMap&) const = default;

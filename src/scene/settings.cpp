@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "base/error.h"
 #include "scene/alternatives.h"
@@ -49,24 +48,38 @@ std::optional<toml::table> parseOverrideValue(std::string_view text, const std::
     return std::nullopt;
 }
 
+/// `name` is no key and no section; the first part of it that is neither has the blame.
 [[noreturn]] void unknownKey(const std::string& name, const std::string& where) {
-    const std::size_t dot = name.rfind('.');
-    throw InputError(fmt::format("unknown key \"{}\"", dot == std::string::npos ? name : name.substr(dot + 1)), where,
-                     suggestKey(name));
+    std::size_t start = 0;
+    for (std::size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', start)) {
+        const std::string section = name.substr(0, dot);
+        if (findKey(section) != nullptr) {
+            throw InputError(fmt::format("{} is a key and has none of its own", section), where,
+                             fmt::format("write {} alone", section));
+        }
+        if (!isSection(section)) {
+            throw InputError(fmt::format("unknown section \"{}\"", section.substr(start)), where, suggestKey(section));
+        }
+        start = dot + 1;
+    }
+    throw InputError(fmt::format("unknown key \"{}\"", name.substr(start)), where, suggestKey(name));
 }
 
-/// "cloud.0.phase.g" → "cloud.phase.g"; the path of one cloud without its index is refused with the way to write it.
+/// "cloud.0.phase.g" → "cloud.phase.g"; a path without the index of its cloud is refused with the way to write it.
 std::string schemaName(const std::string& path) {
     if (!path.starts_with("cloud.")) return path;
     const std::string rest = path.substr(6);
     const std::size_t dot = rest.find('.');
-    std::size_t index = 0;
-    const char* end = rest.data() + std::min(dot, rest.size());
-    const auto [stop, error] = std::from_chars(rest.data(), end, index);
-    if (error != std::errc{} || stop != end) {
+    const std::string index = rest.substr(0, dot);
+    if (findKey("cloud." + index) != nullptr || isSection("cloud." + index)) {
         throw InputError("which cloud is meant?", "--set " + path, "write cloud.0." + rest);
     }
-    if (index != 0) {
+    const bool digits = !index.empty() && std::ranges::all_of(index, [](char c) { return c >= '0' && c <= '9'; });
+    if (!digits || (index.size() > 1 && index[0] == '0')) {
+        throw InputError(fmt::format("the index of a cloud must be a plain number, got \"{}\"", index), "--set " + path,
+                         "write cloud.0" + (dot == std::string::npos ? "" : rest.substr(dot)));
+    }
+    if (index != "0") {
         throw InputError("this version renders one cloud a scene", "--set " + path, "leave the other clouds out");
     }
     return dot == std::string::npos ? "cloud" : "cloud." + rest.substr(dot + 1);

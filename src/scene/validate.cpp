@@ -68,6 +68,22 @@ void finishSun(Draft& draft, const Settings& settings) {
     }
 }
 
+/// A parameter that the model does not read is a mistake, unless --set has replaced the file's model.
+void checkPhase(const Phase& phase, const Settings& settings) {
+    const bool readsG = phase.model == PhaseModel::henyeyGreenstein || phase.model == PhaseModel::schlick;
+    const bool readsDiameter = phase.model == PhaseModel::droplet;
+    const Setting* model = settings.find("cloud.0.phase.model");
+    const auto check = [&](const char* path, bool read, const char* models) {
+        const Setting* given = settings.find(path);
+        if (given == nullptr || read || (given->fromFile && model != nullptr && !model->fromFile)) return;
+        throw InputError(fmt::format("{} has no effect: the phase function is {}", path,
+                                     model == nullptr ? "henyey-greenstein" : model->node->value_or("another")),
+                         given->where, fmt::format("leave it out, or choose the model {}", models));
+    };
+    check("cloud.0.phase.g", readsG, "henyey-greenstein or schlick");
+    check("cloud.0.phase.droplet_diameter", readsDiameter, "droplet");
+}
+
 void checkCloudFile(const Cloud& cloud, const Settings& settings) {
     if (cloud.vdb.empty()) return;
     std::error_code ec;
@@ -86,7 +102,10 @@ Scene finishScene(Draft draft, const Settings& settings) {
     checkImage(draft.scene.image, settings);
     checkCamera(draft.scene.camera, settings);
     finishSun(draft, settings);
-    for (const Cloud& cloud : draft.scene.clouds) checkCloudFile(cloud, settings);
+    for (const Cloud& cloud : draft.scene.clouds) {
+        checkPhase(cloud.phase, settings);
+        checkCloudFile(cloud, settings);
+    }
     return std::move(draft.scene);
 }
 

@@ -6,17 +6,19 @@
 
 namespace lumulus {
 
-CloudVolume loadCloudVolume(const scene::Cloud& cloud, double memoryBudget) {
+CloudVolume loadCloudVolume(const scene::Cloud& cloud, double memoryBudget, const Report& report) {
     if (!cloud.vdb.empty()) {
         vdb::LoadOptions options;
         options.grid = cloud.grid;
         options.transform = cloud.transform;
         options.memoryBudgetMiB = memoryBudget;
+        report("loading the cloud", 0, 1);
         vdb::LoadResult loaded = vdb::load(cloud.vdb, options);
+        report("loading the cloud", 1, 1);
         return {std::move(loaded.volume), std::move(loaded.warnings)};
     }
     CloudVolume made;
-    made.volume = vdb::makeCloud({cloud.procedural, cloud.resolution, cloud.seed});
+    made.volume = vdb::makeCloud({cloud.procedural, cloud.resolution, cloud.seed}, report);
     const glm::dmat3 linear(cloud.transform);
     if (!(glm::determinant(linear) != 0.0))
         throw InputError("the transform is singular", "cloud.0.transform", "give one that can be inverted");

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "scene/scene.h"
 #include "vdb/volume.h"
 
@@ -14,7 +15,8 @@ struct CloudVolume {
     std::vector<std::string> warnings;
 };
 
-/// Loads or makes the cloud, its transform applied. `memoryBudget` in MiB. Errors: InputError for bad grids.
-CloudVolume loadCloudVolume(const scene::Cloud& cloud, double memoryBudget);
+/// Loads or makes the cloud, its transform applied. `memoryBudget` in MiB. Errors: InputError for bad grids, Error
+/// where interrupted.
+CloudVolume loadCloudVolume(const scene::Cloud& cloud, double memoryBudget, const Report& report = noReport);
 
 }  // namespace lumulus

@@ -95,6 +95,11 @@ class Usage(CliTest):
             self.assertIn(f"Example:\n  lumulus {command}", result.stdout)
         self.assertIn("render", self.run_lumulus("--help").stdout)
 
+    def test_help_of_commands_that_are_not_there(self):
+        for arguments in (["composite", "--help"], ["serve", "-h"], ["--nonsense", "--help"], ["serve", "--version"]):
+            self.rejected(*arguments, says="unknown command")
+        self.assertIn("--scene-format", self.run_lumulus("info", "--help").stdout)
+
     def test_version(self):
         self.assertRegex(self.run_lumulus("--version").stdout, r"^lumulus \d+\.\d+\.\d+\n$")
 
@@ -115,7 +120,11 @@ class Usage(CliTest):
         for name in ("a.jpg", "a", "a.exr.txt", ".exr"):
             self.rejected("render", scene, "-o", self.out / name, says="give a name that ends with .exr or .png")
         out = self.out / "a.exr"
-        self.rejected("render", scene, "-o", out, "-o", out, says="given twice")
+        for again in (out, self.out / "../out/a.exr"):
+            self.rejected("render", scene, "-o", out, "-o", again, says="given twice")
+            self.rejected("render", scene, "-o", out, "--stats", again, says="given twice")
+        self.rejected("render", scene, "-o", out, "--stats", "", says="--stats")
+        self.rejected("render", scene, "-o", out, "--device", "", says="--device")
 
     def test_devices(self):
         result = self.run_lumulus("info", "--devices", "--json")
@@ -126,7 +135,7 @@ class Usage(CliTest):
     def test_standard_output_that_is_full(self):
         with open("/dev/full", "w") as full:
             result = subprocess.run([LUMULUS, "--version"], stdout=full, stderr=subprocess.PIPE, text=True)
-        self.one_line(result, 1)
+        self.assertRegex(self.one_line(result, 1), r": cannot write: .* \(standard output\): ")
 
 
 class Scene(CliTest):
@@ -166,6 +175,11 @@ class Scene(CliTest):
 
     def test_line_breaks_in_names_stay_in_one_line(self):
         self.rejected_scene(self.folder / "a\nb.toml", says="a b.toml")
+
+    def test_names_do_no_harm_to_a_terminal(self):
+        self.rejected_scene(self.folder / "a\x1b[31mb\udcff.toml", says=r"a\x1B[31mb\xFF.toml")
+        line = self.rejected_scene(self.scene("[image]\n" + "w" * 500000 + " = 1\n"), says='unknown key "ww')
+        self.assertLess(len(line), 1000)
 
     def test_unknown_device(self):
         self.rejected_scene(self.scene(""), "--device", "no such device", says="no such device")
@@ -208,12 +222,23 @@ class Volumes(CliTest):
         self.assertEqual(grid["active_voxels"], len(inside))
         self.assertIn("density", self.run_lumulus("info", self.fixtures / "ball.vdb").stdout)
 
+    def test_info_of_a_grid_with_a_bad_name(self):
+        data = (self.fixtures / "ball.vdb").read_bytes()
+        (self.folder / "bad.vdb").write_bytes(data.replace(b"density", b"d\x1b[2Jt\xff"))
+        self.assertIn(r"d\x1B[2Jt\xFF: float", self.run_lumulus("info", self.folder / "bad.vdb").stdout)
+
     def test_procedural(self):
         path = self.out / "a.vdb"
-        for seed in (1, 2):
-            result = self.run_lumulus("cloud", "cumulus", "-o", path, "--resolution", 24, "--seed", seed)
+        files = []
+        for seed in (1, 2, 2):
+            result = self.run_lumulus("cloud", "cumulus", "-o", path, "--resolution", 24, "--seed", seed, "--quiet")
             self.assertEqual((result.returncode, result.stderr), (0, ""))
+            files.append(path.read_bytes())
+        self.assertNotEqual(files[0], files[1])
+        self.assertEqual(files[1], files[2])
         self.assertIn("density", self.run_lumulus("info", path).stdout)
+        loud = self.run_lumulus("cloud", "sphere", "-o", path, "--resolution", 24)
+        self.assertRegex(loud.stderr, r"^making the cloud: 0/22 (.*\n)+writing: .* s\n$")
         path.unlink()
         self.rejected("cloud", "nonsense", "-o", path, says="nonsense")
         self.rejected("cloud", "sphere", "-o", self.out / "a.txt", says=".vdb")
@@ -258,7 +283,8 @@ class Places(CliTest):
         self.fails_full(self.out / "a.exr", preexec_fn=limit)
         self.assertEqual((self.out / "a.exr").read_text(), "old")
         self.assertEqual([path.name for path in self.out.iterdir()], ["a.exr"])
-        result = self.run_lumulus("cloud", "sphere", "-o", self.out / "a.vdb", "--resolution", "24", preexec_fn=limit)
+        result = self.run_lumulus("cloud", "sphere", "-o", self.out / "a.vdb", "--resolution", "24", "--quiet",
+                                  preexec_fn=limit)
         self.one_line(result, 1)
         self.assertEqual([path.name for path in self.out.iterdir()], ["a.exr"])
 
@@ -319,22 +345,37 @@ class Rendering(CliTest):
             rms = math.sqrt(sum((a - b) ** 2 for a, b in zip(near[name], far[name])) / len(near[name]))
             self.assertLess(rms, 1e-3 * mean, name)
 
+    def test_progress(self):
+        result = self.run_lumulus("render", self.vdb_scene(self.fixtures / "ball.vdb"), "-o", self.out / "a.exr",
+                                  *SMALL[1:])
+        for step in ("loading the cloud: ", "preparing the cloud: ", "photons: 2/2 ", "drawing: 2/2 ", "writing: "):
+            self.assertIn("\n" + step, "\n" + result.stderr)
+
+    def interrupt(self, step, *arguments):
+        """Ctrl-C as soon as the progress of a step begins."""
+        with self.subTest(step=step):
+            process = subprocess.Popen([LUMULUS, *map(str, arguments)], stderr=subprocess.PIPE, text=True)
+            self.addCleanup(process.stderr.close)
+            watchdog = threading.Timer(120, process.kill)
+            watchdog.start()
+            self.addCleanup(watchdog.cancel)
+            line = process.stderr.readline()
+            while line and not line.startswith(f"{step}: 0/"):
+                line = process.stderr.readline()
+            self.assertNotEqual(line, "")
+            process.send_signal(signal.SIGINT)
+            lines = process.stderr.read().splitlines()
+            self.assertEqual(process.wait(timeout=60), 1)
+            self.assertEqual(lines[-1], "lumulus: error: interrupted: nothing was written")
+            self.assertEqual(list(self.out.iterdir()), [])
+
     def test_interrupted(self):
-        """Ctrl-C between two of many small generations."""
-        arguments = ["render", self.scene(""), "-o", self.out / "a.exr", "--set", "photon_map.photons=100000",
-                     "--set", "photon_map.generations=4096", "--set", "preparation.samples=500",
-                     "--set", "cloud.0.resolution=16"]
-        process = subprocess.Popen([LUMULUS, *map(str, arguments)], stderr=subprocess.PIPE, text=True)
-        self.addCleanup(process.stderr.close)
-        watchdog = threading.Timer(120, process.kill)
-        watchdog.start()
-        self.addCleanup(watchdog.cancel)
-        self.assertIn("photons: 0/4096", process.stderr.readline())
-        process.send_signal(signal.SIGINT)
-        lines = process.stderr.read().splitlines()
-        self.assertEqual(process.wait(timeout=60), 1)
-        self.assertEqual(lines[-1], "lumulus: error: interrupted: nothing was written")
-        self.assertEqual(list(self.out.iterdir()), [])
+        self.interrupt("making the cloud", "cloud", "cumulus", "-o", self.out / "a.vdb", "--resolution", 600)
+        render = ["render", self.scene(""), "-o", self.out / "a.exr", "--set", "preparation.samples=500"]
+        self.interrupt("making the cloud", *render, "--set", "cloud.0.resolution=600")
+        small = [*render, "--set", "cloud.0.resolution=16", "--set", "photon_map.photons=100000"]
+        self.interrupt("photons", *small, "--set", "photon_map.generations=4096")
+        self.interrupt("drawing", *small, "--set", "image.width=4096", "--set", "image.height=4096")
 
 
 if __name__ == "__main__":

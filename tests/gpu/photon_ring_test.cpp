@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "photon/photon_map.h"
 #include "support/cloud_cases.h"
 #include "support/photon_setup.h"
@@ -97,6 +98,32 @@ TEST_F(PhotonRing, GenerationsDiffer) {
     map.trace(sunAt(0), skyAt(0));
     EXPECT_NE(map.downloadSlot(0), map.downloadSlot(1));
     EXPECT_EQ(map.generationsInRing(), 2);
+}
+
+/// Refused before any memory is taken, with what is needed and what there is.
+TEST_F(PhotonRing, MoreThanTheBudgetIsRefused) {
+    const auto refusal = [&](const Options& wanted) -> std::string {
+        const std::uint64_t before = context.allocatedBytes();
+        try {
+            PhotonMap(context, cloud, medium, wanted);
+        } catch (const InputError& e) {
+            EXPECT_EQ(context.allocatedBytes(), before);
+            return e.what();
+        }
+        return "";
+    };
+    Options wanted = options();
+    wanted.generations = 4096;
+    // a generation of this cloud: collectors · RGB · bands² · 8 bytes
+    const std::uint64_t each = cloud.collectors.size() * 3 * bands * bands * 8;
+    wanted.memoryBudget = 4098 * each - 1;
+    EXPECT_THAT(refusal(wanted), testing::HasSubstr("4098 times"));
+    wanted.keepRing = false;
+    EXPECT_EQ(refusal(wanted), "");
+    wanted.memoryBudget = 2 * each - 1;
+    EXPECT_THAT(refusal(wanted), testing::HasSubstr("(photon_map.memory_budget)"));
+    wanted.memoryBudget = 2 * each;
+    EXPECT_EQ(refusal(wanted), "");
 }
 
 }  // namespace

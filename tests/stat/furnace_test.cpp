@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "photon/emission.h"
 #include "photon/photon_map.h"
 #include "support/cloud_cases.h"
 #include "support/photon_setup.h"
@@ -57,13 +58,8 @@ struct Deviations {
 
 /// Area of the box's six faces [m²].
 double boxSurface(const cloud::Cloud& cloud) {
-    double area = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-        area += 2.0 * glm::length(glm::cross(cloud.toWorld.linear[b] * double(cloud.size[b]),
-                                             cloud.toWorld.linear[c] * double(cloud.size[c])));
-    }
-    return area;
+    const glm::dmat3 faces = faceAreas(cloud.toWorld.linear, glm::dvec3(cloud.size));
+    return 2.0 * (glm::length(faces[0]) + glm::length(faces[1]) + glm::length(faces[2]));
 }
 
 class Furnace : public test::VulkanTest {

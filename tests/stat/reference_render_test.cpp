@@ -164,6 +164,7 @@ TEST(Reference, LayersAreWhatTheySay) {
     EXPECT_EQ(value("A", 0, 0), 0.0);
     EXPECT_EQ(value("transmittance.G", 0, 0), 1.0);
     EXPECT_EQ(value("depth.Z", 0, 0), 1e10);
+    EXPECT_EQ(value("depth.front", 0, 0), 1e10F);
     EXPECT_EQ(value("cloud.B", 0, 0), 0.0);
     EXPECT_FLOAT_EQ(static_cast<float>(value("B", 0, 0)), static_cast<float>(scene.sky.radiance.z));
     EXPECT_EQ(value("variance.B", 0, 0), 0.0);
@@ -177,6 +178,10 @@ TEST(Reference, LayersAreWhatTheySay) {
     const vdb::Volume volume = ball();
     const Camera camera = makeCamera(scene.camera, scene.image, boundsOf(volume));
     EXPECT_NEAR(value("depth.Z", 10, 10), glm::length(camera.position) - 10.0 + 1.0 / 0.3, 1.0);
+    // the front: the surface, which the interpolation of voxels of 10/7 m moves outwards by up to two of them
+    const double surface = glm::length(camera.position) - 10.0;
+    EXPECT_LT(value("depth.front", 10, 10), surface + 0.1);
+    EXPECT_GT(value("depth.front", 10, 10), surface - 20.0 / 7.0);
     EXPECT_EQ(image.layers.count("sun.disc"), 0U);
 }
 
@@ -202,6 +207,28 @@ TEST(Reference, SunDiscShinesThrough) {
     EXPECT_LT(static_cast<double>(image.layers.at("R")[0]), 0.1 * disc);
 }
 
+/// The front is seen through the middle of the pixel, and does not depend on the samples.
+TEST(Reference, FrontIsThatOfThePixelsMiddle) {
+    scene::Scene scene = ballScene();
+    scene.camera.projection = scene::Projection::orthographic;
+    const vdb::Volume volume = ball();
+    const Camera camera = makeCamera(scene.camera, scene.image, boundsOf(volume));
+    const Medium medium(volume, 0.3);
+    const std::vector<float> front = rendered(scene, 1, 1).layers.at("depth.front");
+    EXPECT_EQ(front, rendered(scene, 2, 3).layers.at("depth.front"));
+    for (int y = 0; y < 20; ++y) {
+        for (int x = 0; x < 20; ++x) {
+            const auto expected = frontAlong(medium, medium.toVoxel(camera.ray(x + 0.5, y + 0.5)));
+            ASSERT_EQ(front[static_cast<std::size_t>(20 * y + x)], static_cast<float>(expected.value_or(1e10)));
+        }
+    }
+    scene.camera.position = dvec3(0.0, 1.0, 0.0);
+    scene.camera.target = dvec3(0.0, 1.0, -5.0);
+    scene.camera.projection = scene::Projection::panorama;
+    const LayeredImage inside = rendered(scene, 1, 1);
+    for (const float value : inside.layers.at("depth.front")) EXPECT_EQ(value, 0.0F) << "from inside";
+}
+
 TEST(Reference, WithoutACloudThereIsSky) {
     scene::Scene scene = ballScene();
     scene.clouds.clear();
@@ -209,6 +236,7 @@ TEST(Reference, WithoutACloudThereIsSky) {
     renderer.pass(goOn);
     const LayeredImage image = renderer.picture();
     for (const float value : image.layers.at("R")) EXPECT_EQ(value, static_cast<float>(scene.sky.radiance.x));
+    for (const float value : image.layers.at("depth.front")) EXPECT_EQ(value, 1e10F);
     EXPECT_EQ(image.layers.count("variance.R"), 0U);
 }
 

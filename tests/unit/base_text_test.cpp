@@ -7,11 +7,17 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/progress.h"
+#include "base/text.h"
 
 namespace lumulus {
 namespace {
 
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::MatchesRegex;
 using testing::StartsWith;
 
 std::vector<std::string> shown(std::uint64_t total, std::uint64_t steps, bool terminal) {
@@ -48,6 +54,27 @@ TEST(Progress, NothingToDoShowsNothing) {
     EXPECT_TRUE(shown(0, 0, false).empty());
 }
 
+TEST(Progress, WorkOfOneStepShowsItsTime) {
+    EXPECT_THAT(shown(1, 1, false), ElementsAre("photons: 0.0 s\n"));
+    EXPECT_THAT(shown(1, 0, false), IsEmpty());
+    EXPECT_THAT(shown(1, 1, true), ElementsAre("\rphotons …\033[K", "\rphotons: 0.0 s\033[K", "\n"));
+    EXPECT_THAT(shown(1, 0, true), ElementsAre("\rphotons …\033[K", "\n"));
+}
+
+TEST(Progress, StepsFollowOneAnother) {
+    testing::internal::CaptureStderr();
+    {
+        Steps steps(false);
+        const Report report = steps.reporter();
+        report("load", 0, 1);
+        report("load", 1, 1);
+        for (const std::uint64_t done : {0U, 3U, 2U, 5U}) report("draw", done, 5);
+        Steps(true).report("quiet", 0, 5);
+    }
+    EXPECT_THAT(testing::internal::GetCapturedStderr(),
+                MatchesRegex("load: 0.0 s\ndraw: 0/5 .0 %.\ndraw: 5/5 .100 %., [^\n]*\n"));
+}
+
 TEST(Progress, QuietIsQuiet) {
     testing::internal::CaptureStderr();
     Progress progress("photons", 3, true);
@@ -64,13 +91,41 @@ TEST(Progress, Durations) {
     EXPECT_EQ(durationText(7620.0), "2 h 07 min");
 }
 
-TEST(Log, EverythingIsOneLine) {
+TEST(Text, OneLine) {
     EXPECT_EQ(oneLine("a\nb\tc\r\n"), "a b c");
-    EXPECT_EQ(oneLine("0…1, über"), "0…1, über");
+    EXPECT_EQ(oneLine("0…1, über, 𝄞"), "0…1, über, 𝄞");
+    EXPECT_EQ(oneLine("\x1b[31mred\x7f"), "\\x1B[31mred\\x7F");
+    EXPECT_EQ(oneLine(std::string_view("a\0b", 3)), "a\\x00b");
+    EXPECT_EQ(oneLine("\xc2\x9b"
+                      "2J"),
+              "\\xC2\\x9B"
+              "2J")
+        << "U+009B is a control character too";
+    // overlong, a surrogate, beyond Unicode, a lone byte, a character cut off
+    EXPECT_EQ(oneLine("\xc0\xaf"), "\\xC0\\xAF");
+    EXPECT_EQ(oneLine("\xed\xa0\x80"), "\\xED\\xA0\\x80");
+    EXPECT_EQ(oneLine("\xf4\x90\x80\x80"), "\\xF4\\x90\\x80\\x80");
+    EXPECT_EQ(oneLine("\xff!"), "\\xFF!");
+    EXPECT_EQ(oneLine("\xe2\x80"), "\\xE2\\x80");
+}
+
+TEST(Text, Shortened) {
+    EXPECT_EQ(shortened("short", 5), "short");
+    EXPECT_EQ(shortened("0123456789", 4), "01 … 6 bytes … 89");
+    EXPECT_EQ(shortened("éééééééé", 6), "é … 12 bytes … é") << "characters stay whole";
+    EXPECT_EQ(shortened("éé", 0), " … 4 bytes … ");
+}
+
+TEST(Log, EverythingIsOneLine) {
     testing::internal::CaptureStderr();
     logError("bad\nname");
     logWarning("odd");
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "lumulus: error: bad name\nlumulus: warning: odd\n");
+    testing::internal::CaptureStderr();
+    logError("begin" + std::string(1000000, '\x1b') + "end");
+    const std::string line = testing::internal::GetCapturedStderr();
+    EXPECT_LT(line.size(), 1000U);
+    EXPECT_THAT(line, AllOf(StartsWith("lumulus: error: begin\\x1B"), EndsWith("\\x1Bend\n")));
 }
 
 TEST(ErrorText, PartsAndExitCodes) {

@@ -58,5 +58,9 @@ TEST(Measure, RefusesNaN) {
     EXPECT_THROW(makeTruth(bad, "truth.exr", 4, 3, 0.0), InputError);
 }
 
+TEST(Measure, RefusesABlackReference) {
+    EXPECT_THROW(makeTruth(grey(0.0F), "truth.exr", 4, 3, 0.0), InputError);
+}
+
 }  // namespace
 }  // namespace lumulus::bench

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/plot.h"
 #include "bench/record.h"
 #include "bench/table.h"
 
@@ -12,7 +11,6 @@ namespace lumulus::bench {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
 
 using Runs = std::vector<Run>;  // in a test, Run is a function of GoogleTest
 
@@ -70,30 +68,6 @@ TEST(Table, SaysWhatItDoesNotKnow) {
     const std::string text = tableText(rows, std::nullopt);
     EXPECT_THAT(text, testing::ContainsRegex("relMSE 0.01 +without warm-up +not reached +≤ 1 s +-\n"));
     EXPECT_THAT(text, HasSubstr("reference noise: unknown"));
-}
-
-TEST(Plot, HoldsEverySeriesAndTheFloor) {
-    const std::string svg = errorPlotSvg(twoMethods(), "a <b> & c", 2e-4);
-    EXPECT_THAT(svg, HasSubstr("a &lt;b&gt; &amp; c"));
-    EXPECT_THAT(svg, HasSubstr("noise of the reference"));
-    std::size_t circles = 0;
-    for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) ++circles;
-    EXPECT_EQ(circles, 12U);  // 2 methods by 2 clocks, 3 points each
-    EXPECT_THAT(svg, Not(HasSubstr("nan")));
-    EXPECT_THAT(svg, Not(HasSubstr("inf")));
-}
-
-TEST(Plot, PlacesPointsOnLogarithmicAxes) {
-    // x over 1..100 (both clocks: 1 and 2, 10 and 20), y over .01..1: the middle decade is the middle of the picture
-    const std::vector<Row> rows = summarise(Runs{run(Method::render, 1.0, 1.0), run(Method::render, 10.0, 0.1)});
-    EXPECT_THAT(errorPlotSvg(rows, "", 0.01), HasSubstr("<circle cx=\"390.0\" cy=\"235.5\""));
-}
-
-TEST(Plot, LeavesOutWhatLogarithmsCannotShow) {
-    const std::vector<Row> rows = summarise(Runs{run(Method::render, 1.0, -1e-5)});
-    const std::string svg = errorPlotSvg(rows, "below", std::nullopt);
-    EXPECT_THAT(svg, Not(HasSubstr("<circle")));
-    EXPECT_THAT(svg, Not(HasSubstr("nan")));
 }
 
 }  // namespace

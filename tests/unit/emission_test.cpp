@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "support/photon_setup.h"
@@ -12,12 +13,11 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-const dmat3 boxEdges(dvec3(2, 0, 0), dvec3(0, 3, 0), dvec3(0, 0, 5));
+const dmat3 boxFaces = faceAreas(dmat3(1.0), {2, 3, 5});
 
 TEST(Emission, FluxesAreThoseThroughTheBox) {
     const dvec3 to = glm::normalize(dvec3(1, 2, -3));
-    const Emission emission =
-        makeEmission(test::sunFrom(to, {3, 2, 1}), test::skyOf({0.5, 1.0, 2.0}), faceAreas(boxEdges));
+    const Emission emission = makeEmission(test::sunFrom(to, {3, 2, 1}), test::skyOf({0.5, 1.0, 2.0}), boxFaces);
     const double projected = 15.0 * std::abs(to.x) + 10.0 * std::abs(to.y) + 6.0 * std::abs(to.z);
     const double surface = 2.0 * (15.0 + 10.0 + 6.0);
     for (int c = 0; c < 3; ++c) {
@@ -26,21 +26,25 @@ TEST(Emission, FluxesAreThoseThroughTheBox) {
     }
 }
 
-/// The area vector of a sheared box's face is the cross product of its edges; volume = area · the third edge.
+/// The area vector of a sheared box's face is the cross product of its edges; volume = area · the third edge. They
+/// point along the edges in a mirrored box too.
 TEST(Emission, FacesOfAShearedBox) {
-    const dmat3 edges(dvec3(2, 0.3, 0), dvec3(0.5, 3, 0.2), dvec3(-0.4, 0, 5));
-    const dmat3 faces = faceAreas(edges);
-    for (int axis = 0; axis < 3; ++axis)
-        for (int other = 0; other < 3; ++other)
-            EXPECT_NEAR(glm::dot(faces[axis], edges[other]), axis == other ? glm::determinant(edges) : 0.0, 1e-12);
+    const dvec3 size(2, 3, 5);
+    for (const double sign : {1.0, -1.0}) {
+        const dmat3 voxel(dvec3(sign, 0.15, 0), dvec3(0.5, 3, 0.2), dvec3(-0.4, 0, 5));
+        const dmat3 faces = faceAreas(voxel, size);
+        for (int axis = 0; axis < 3; ++axis)
+            for (int other = 0; other < 3; ++other)
+                EXPECT_NEAR(glm::dot(faces[axis], voxel[other] * size[other]),
+                            axis == other ? 30.0 * std::abs(glm::determinant(voxel)) : 0.0, 1e-10);
+    }
 }
 
 TEST(Emission, ADarkLightHasNoPhotons) {
     const scene::Sun sun = test::sunFrom({0, 1, 0}, dvec3(1.0));
     const scene::Sky sky = test::skyOf(dvec3(1.0));
-    const dmat3 faces = faceAreas(boxEdges);
-    const Emission onlySun = makeEmission(sun, test::skyOf(dvec3(0.0)), faces);
-    const Emission onlySky = makeEmission(test::noSun(), sky, faces);
+    const Emission onlySun = makeEmission(sun, test::skyOf(dvec3(0.0)), boxFaces);
+    const Emission onlySky = makeEmission(test::noSun(), sky, boxFaces);
     for (const double u : {0.0, 0.5, 1.0 - 0x1p-32}) {
         EXPECT_EQ(onlySun.sunPhotons(1000, u), 1000U);
         EXPECT_EQ(onlySky.sunPhotons(1000, u), 0U);
@@ -48,14 +52,13 @@ TEST(Emission, ADarkLightHasNoPhotons) {
     EXPECT_EQ(onlySun.skyPower(1000), dvec3(0.0));
     EXPECT_EQ(onlySky.sunPower(1000), dvec3(0.0));
     EXPECT_FALSE(onlySun.dark());
-    EXPECT_TRUE(makeEmission(test::noSun(), test::skyOf(dvec3(0.0)), faces).dark());
+    EXPECT_TRUE(makeEmission(test::noSun(), test::skyOf(dvec3(0.0)), boxFaces).dark());
 }
 
 /// Shares follow luminance; the photons of a light carry its flux on the average over `u`, also when the share is not
 /// a whole number of them.
 TEST(Emission, PhotonsCarryTheFlux) {
-    const Emission emission =
-        makeEmission(test::sunFrom({0, 1, 0}, {3, 1, 2}), test::skyOf({0.1, 0.2, 0.3}), faceAreas(boxEdges));
+    const Emission emission = makeEmission(test::sunFrom({0, 1, 0}, {3, 1, 2}), test::skyOf({0.1, 0.2, 0.3}), boxFaces);
     constexpr std::uint64_t photons = 37;
     constexpr int steps = 1000;
     double sun = 0.0;

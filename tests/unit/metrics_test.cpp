@@ -39,6 +39,26 @@ TEST(Compare, FindsNothingBetweenEqualPictures) {
     EXPECT_FALSE(result.rmse.standardError.has_value());
 }
 
+/// What is relative to nothing is nothing, or beyond all numbers; never no number.
+TEST(Compare, KnowsBlack) {
+    LayeredImage black = uniform(4, 3, 0.0F);
+    addVariance(black, 0.0F);
+    for (const Comparison& same : {compare(black, black), compare(black, black, black)}) {
+        for (const Measure& measure : {same.rmse, same.relMse, same.bias, same.relativeBias, same.mape}) {
+            EXPECT_EQ(measure.value, 0.0);
+            EXPECT_EQ(measure.standardError, 0.0);
+        }
+        EXPECT_EQ(same.referenceNoise, 0.0);
+    }
+    const Comparison other = compare(uniform(4, 3, 0.5F), black);
+    EXPECT_DOUBLE_EQ(other.rmse.value, 0.5);
+    EXPECT_DOUBLE_EQ(other.bias.value, 0.5);
+    for (const Measure& measure : {other.relMse, other.relativeBias, other.mape}) {
+        EXPECT_EQ(measure.value, std::numeric_limits<double>::infinity());
+        EXPECT_EQ(measure.standardError, 0.0);
+    }
+}
+
 /// Two pixels by hand: R = 1 and 3 (mean 2), I = 1.5 and 2.
 TEST(Compare, HasTheValuesOfTheDefinition) {
     LayeredImage reference = uniform(2, 1, 1.0F), image = uniform(2, 1, 1.5F);
@@ -155,6 +175,15 @@ TEST(Comparable, SaysWhereThereIsNoNumber) {
     addVariance(reference, 0.1F);
     reference.layer("variance.B")[0] = std::numeric_limits<float>::infinity();
     EXPECT_THAT(refusal(uniform(5, 4, 1.0F), reference), testing::AllOf(HasSubstr("variance.B"), HasSubstr("b.exr")));
+}
+
+TEST(Comparable, RefusesNegativeVariance) {
+    LayeredImage image = uniform(5, 4, 1.0F);
+    image.layer("variance.G", 0.0F)[7] = -1e-9F;
+    EXPECT_THAT(refusal(image, uniform(5, 4, 1.0F)), HasSubstr("variance.G is below 0 at x 2, y 1"));
+    image.layers.erase("variance.G");
+    image.layer("sun.disc")[0] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THAT(refusal(uniform(5, 4, 1.0F), image), HasSubstr("sun.disc is not a finite number"));
 }
 
 TEST(Comparable, WantsColours) {

@@ -146,5 +146,74 @@ TEST(LineIntegrals, DoNotDependOnTheDirection) {
     EXPECT_NEAR(there.transmittance, back.transmittance, 1e-7);
 }
 
+/// Metres to the cloud along the ray from a point in voxel coordinates; −1 where there is none.
+double frontOf(const Medium& medium, const vdb::Volume& volume, const glm::dvec3& from, const glm::dvec3& direction) {
+    const Ray ray{volume.toWorld.point(from), glm::normalize(volume.toWorld.vector(direction))};
+    return frontAlong(medium, medium.toVoxel(ray)).value_or(-1.0);
+}
+
+TEST(Front, OfABoxIsHalfAVoxelBeforeIt) {
+    // between the centre of the ring's voxel at .5 and the first one at 1.5 the density rises from 0 to 1
+    const vdb::Volume volume = boxVolume({10, 20, 20});
+    const Medium medium(volume, 0.2);
+    const auto front = [&](const glm::dvec3& from, const glm::dvec3& direction) {
+        return frontOf(medium, volume, from, direction);
+    };
+    EXPECT_NEAR(front({-5.0, 11.0, 11.0}, {1.0, 0.0, 0.0}), 5.5, 1e-12);
+    EXPECT_NEAR(front({17.0, 11.3, 10.9}, {-1.0, 0.0, 0.0}), 17.0 - 11.5, 1e-12);
+    EXPECT_NEAR(front({0.5, 0.5, -4.0}, {1e-9, 1e-9, 1.0}), 4.5, 1e-6) << "along an edge, just inside";
+    EXPECT_EQ(front({0.5, 0.5, -4.0}, {0.0, 0.0, 1.0}), -1.0) << "in the plane where the density is 0";
+    EXPECT_NEAR(front({1.5, 1.5, -4.0}, {0.0, 0.0, 1.0}), 4.5, 1e-12) << "in a plane of voxel centres";
+    const glm::dvec3 slanted = glm::normalize(glm::dvec3(2.0, 1.0, 0.3));
+    EXPECT_NEAR(front({-5.0, 6.0, 11.0}, slanted), 5.5 / slanted.x, 1e-12);
+    EXPECT_EQ(front({6.0, 11.0, 11.0}, slanted), 0.0) << "from inside";
+    EXPECT_EQ(front({-5.0, 6.0, 11.0}, -slanted), -1.0) << "away from it";
+    EXPECT_EQ(front({-5.0, 30.0, 11.0}, {1.0, 0.0, 0.0}), -1.0) << "past it";
+}
+
+TEST(Front, OfABallIsItsSurface) {
+    const double radius = 10.0, voxel = 20.0 / 64.0;
+    const Medium medium(ballVolume(66, radius), 0.1);
+    for (const double b : {0.0, 3.3, 6.1, 8.7}) {
+        const Ray ray{{b * 0.6, b * 0.8, 40.0}, {0.0, 0.0, -1.0}};
+        const double front = frontAlong(medium, medium.toVoxel(ray)).value_or(0.0);
+        // the field reaches up to 1.5 voxels beyond the surface in each axis, by which a slanted surface moves further
+        const double surface = std::sqrt(radius * radius - b * b), slope = radius / surface;
+        EXPECT_LE(front, 40.0 - surface) << "at " << b;
+        EXPECT_GE(front, 40.0 - surface - 1.5 * std::sqrt(3.0) * voxel * slope) << "at " << b;
+    }
+}
+
+/// Against looking at every hundredth of a voxel, in a field with holes.
+TEST(Front, IsWhereTheDensityBegins) {
+    vdb::Volume volume = hillyVolume();
+    for (std::size_t i = 0; i < volume.density.size(); ++i) {
+        if (i % 97 != 5) volume.density[i] = 0.0F;
+    }
+    const Medium medium(volume, 0.3);
+    const glm::dvec3 size(volume.size);
+    Random random(5, 0, 0);
+    int met = 0;
+    for (int i = 0; i < 900; ++i) {
+        const auto somewhere = [&] { return glm::dvec3(random.uniform(), random.uniform(), random.uniform()); };
+        const glm::dvec3 from = (2.0 * somewhere() - 0.5) * size;
+        const glm::dvec3 direction = glm::normalize(somewhere() * size - from);
+        double expected = -1.0;
+        for (double t = 0.0; t < 60.0 && expected < 0.0; t += 0.01) {
+            if (interpolate(volume, from + t * direction) > 0.0) expected = t;
+        }
+        const double scale = glm::length(volume.toWorld.vector(direction));
+        const double front = frontOf(medium, volume, from, direction) / scale;
+        if (expected < 0.0) {
+            EXPECT_LT(front, 0.0);
+        } else {
+            EXPECT_NEAR(front, expected, 0.011);
+            ++met;
+        }
+    }
+    EXPECT_GT(met, 50);
+    EXPECT_LT(met, 900);
+}
+
 }  // namespace
 }  // namespace lumulus::reference

@@ -12,7 +12,9 @@ namespace lumulus::scene {
 namespace {
 
 using test::TemporaryFolder;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::StartsWith;
 using Overrides = std::vector<std::string>;
 
 Scene parse(const std::string& toml, const Overrides& overrides = {}) {
@@ -73,7 +75,7 @@ TEST(SceneFile, EveryKeyArrives) {
         density_scale = 2
         extinction = 0.25
         albedo = [0.9, 0.8, 0.7]
-        phase = { model = "droplet", g = -0.5, droplet_diameter = 12 }
+        phase = { model = "droplet", droplet_diameter = 12 }
         [preparation]
         samples = 1e3
         density_threshold = 0.2
@@ -87,6 +89,7 @@ TEST(SceneFile, EveryKeyArrives) {
         bands = 2
         forward_cut = 12
         majorant = "local"
+        memory_budget = 50.5
         seed = 9007199254740991
         [draw]
         mode = "march"
@@ -105,10 +108,11 @@ TEST(SceneFile, EveryKeyArrives) {
     cloud.densityScale = 2.0;
     cloud.extinction = 0.25;
     cloud.albedo = {0.9, 0.8, 0.7};
-    cloud.phase = {PhaseModel::droplet, -0.5, 12.0};
+    cloud.phase.model = PhaseModel::droplet;
+    cloud.phase.dropletDiameter = 12.0;
     expected.clouds = {cloud};
     expected.preparation = {1000, 0.2, 5.0, 64, 100.0};
-    expected.photonMap = {12, 3, 4, 2, 12.0, Majorant::local, 9007199254740991ULL};
+    expected.photonMap = {12, 3, 4, 2, 12.0, Majorant::local, 50.5, 9007199254740991ULL};
     expected.draw = {DrawMode::march};
     expected.source = "x.toml";
     EXPECT_EQ(s, expected);
@@ -190,6 +194,19 @@ TEST(SceneFile, MissingFiles) {
     EXPECT_THROW(loadScene(folder.path()), InputError);
 }
 
+TEST(SceneFile, ParametersThatThePhaseFunctionDoesNotHave) {
+    const std::string fog = "[[cloud]]\nphase = { model = \"droplet\", droplet_diameter = 9 }";
+    const std::string ice = "[[cloud]]\nphase = { model = \"schlick\", g = 0.5 }";
+    EXPECT_THAT(messageOf("[[cloud]]\nphase = { model = \"droplet\", g = 0.5 }"),
+                StartsWith("cloud.0.phase.g has no effect: the phase function is droplet (x.toml:2, cloud.0.phase.g)"));
+    EXPECT_THAT(messageOf("[[cloud]]\nphase.model = \"hazy\"\nphase.g = 0.5"), HasSubstr("the phase function is hazy"));
+    EXPECT_THAT(messageOf("[[cloud]]\nphase.droplet_diameter = 9"),
+                HasSubstr("cloud.0.phase.droplet_diameter has no effect: the phase function is henyey-greenstein"));
+    EXPECT_THAT(messageOf(fog, {"cloud.0.phase.g=0.5"}), HasSubstr("(--set cloud.0.phase.g)"));
+    EXPECT_EQ(parse(fog, {"cloud.0.phase.model=hg", "cloud.0.phase.g=0.5"}).clouds.at(0).phase.g, 0.5);
+    EXPECT_EQ(parse(ice, {"cloud.0.phase.model=rayleigh"}).clouds.at(0).phase.model, PhaseModel::rayleigh);
+}
+
 TEST(Overrides, ReplaceTheFile) {
     const Scene scene = parse("[photon_map]\nbands = 2\n[draw]\nmode = \"march\"",
                               {"photon_map.bands=3", "photon_map.bands=4", "draw.mode=billboards",
@@ -216,6 +233,15 @@ TEST(Overrides, Messages) {
     EXPECT_THAT(messageOf("", {"cloud.1.extinction=1"}), HasSubstr("one cloud a scene"));
     EXPECT_THAT(messageOf("", {"cloud.0=1"}), HasSubstr("(--set cloud.0)"));
     EXPECT_THAT(messageOf("", {"image.widht=3"}), HasSubstr("did you mean \"width\"?"));
+    EXPECT_THAT(messageOf("", {"nosection.x=1"}),
+                AllOf(HasSubstr("unknown section \"nosection\""), HasSubstr("the sections are camera, cloud")));
+    EXPECT_THAT(messageOf("", {"imag.width=1"}), HasSubstr("did you mean \"image\"?"));
+    EXPECT_THAT(messageOf("", {"image.width.x=1"}), HasSubstr("write image.width alone"));
+    for (const char* index : {"x", "00", "-1", "+0", "", "0x0"}) {
+        EXPECT_THAT(messageOf("", {"cloud." + std::string(index) + ".extinction=1"}),
+                    AllOf(HasSubstr("must be a plain number, got \"" + std::string(index) + "\""),
+                          HasSubstr("write cloud.0.extinction")));
+    }
     for (const char* text : {"", "=", "image.width", "=3"}) {
         EXPECT_THAT(messageOf("", {text}), HasSubstr("write section.key=value")) << text;
     }

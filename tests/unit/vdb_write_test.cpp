@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <regex>
+#include <string>
 
 #include "base/error.h"
 #include "support/temporary_folder.h"
@@ -61,6 +63,20 @@ TEST_F(Write, IsAnOrdinaryFogVolume) {
     EXPECT_NEAR(infos[0].voxelSize.x, 200.0 / 14, 1e-9);
     EXPECT_EQ(infos[0].activeMinimum, glm::ivec3(1));
     EXPECT_EQ(infos[0].values->background, 0.0);
+}
+
+TEST_F(Write, SameVolumeSameBytes) {
+    const auto bytesOf = [&](int resolution) {
+        write(makeCloud({"sphere", resolution, 1}), file());
+        return test::readAll(file());
+    };
+    const std::string bytes = bytesOf(16);
+    EXPECT_EQ(bytesOf(16), bytes);
+    const std::string uuid = bytes.substr(21, 36);
+    EXPECT_TRUE(
+        std::regex_match(uuid, std::regex("[0-9a-f]{8}-[0-9a-f]{4}-8[0-9a-f]{3}-[89ab][0-9a-f]{3}-[0-9a-f]{12}")))
+        << uuid;
+    EXPECT_NE(bytesOf(17).substr(21, 36), uuid);
 }
 
 TEST_F(Write, EmptyVolume) {
