@@ -15,12 +15,15 @@ struct Walk {
     float depth;    // optical depth left
 };
 
-/// Goes on to the next collision or cell face; `majorant` is that of the walk's cell [1/m]. A periodic grid goes on for
-/// ever in x and z.
+/// Goes on to the next collision or cell face. `majorant` is that of the walk's cell [1/m], or where it is negative
+/// the distance, in cells, to the nearest cell that is not empty: all nearer ones are crossed at once. A periodic grid
+/// goes on for ever in x and z.
 uint walkStep(inout Walk walk, float majorant, ivec3 cells, bool periodic) {
-    const vec3 face = vec3(greaterThan(walk.velocity, vec3(0.0)));
-    const bvec3 moves = notEqual(walk.velocity, vec3(0.0));
-    const vec3 distances = mix(vec3(3.4e38), (face - walk.offset) / walk.velocity, moves);
+    const float reach = max(-majorant - 1.0, 0.0);
+    majorant = max(majorant, 0.0);
+    const bvec3 ahead = greaterThan(walk.velocity, vec3(0.0));
+    const vec3 face = mix(vec3(-reach), vec3(1.0 + reach), ahead);
+    const vec3 distances = mix((face - walk.offset) / walk.velocity, vec3(3.4e38), equal(walk.velocity, vec3(0.0)));
     const float nearest = max(min(distances.x, min(distances.y, distances.z)), 0.0);
     const float crossing = majorant * nearest;
     if (walk.depth < crossing) {
@@ -28,13 +31,15 @@ uint walkStep(inout Walk walk, float majorant, ivec3 cells, bool periodic) {
         return WALK_COLLISION;
     }
     walk.depth -= crossing;
-    walk.offset = clamp(walk.offset + walk.velocity * nearest, 0.0, 1.0);
-    const int axis = distances.x <= nearest ? 0 : (distances.y <= nearest ? 1 : 2);
-    const int direction = walk.velocity[axis] > 0.0 ? 1 : -1;
-    walk.cell[axis] += direction;
-    walk.offset[axis] = direction > 0 ? 0.0 : 1.0;
-    if (periodic && axis != 1) walk.cell[axis] = (walk.cell[axis] + cells[axis]) % cells[axis];
-    return walk.cell[axis] < 0 || walk.cell[axis] >= cells[axis] ? WALK_LEFT : WALK_CROSSED;
+    const vec3 end = walk.offset + walk.velocity * nearest;
+    const bvec3 met = bvec3(distances.x <= nearest, distances.x > nearest && distances.y <= nearest,
+                            distances.x > nearest && distances.y > nearest);
+    const vec3 passed = mix(clamp(floor(end), -reach, reach), mix(vec3(-1.0 - reach), vec3(1.0 + reach), ahead), met);
+    walk.offset = mix(clamp(end - passed, 0.0, 1.0), 1.0 - vec3(ahead), met);
+    walk.cell += ivec3(passed);
+    if (periodic) walk.cell.xz = (walk.cell.xz + cells.xz) % cells.xz;
+    const bool inside = all(greaterThanEqual(walk.cell, ivec3(0))) && all(lessThan(walk.cell, cells));
+    return inside ? WALK_CROSSED : WALK_LEFT;
 }
 
 #endif

@@ -13,9 +13,11 @@ layout(push_constant, scalar) uniform Push { GatherPush push; };
 
 void main() {
     const uint lane = gl_GlobalInvocationID.x;
-    const uint slot = gl_GlobalInvocationID.y;
-    if (lane >= push.invocations || slot >= recordCounts[lane]) return;
-    const PhotonRecord record = records[slot * push.invocations + lane];
-    const uint place = atomicAdd(cursors[record.collector], 1u);
-    sorted[place] = uvec3(record.direction, record.power);
+    if (lane >= push.invocations) return;
+    const uint count = recordCounts[lane];
+    for (uint slot = gl_GlobalInvocationID.y; slot < count; slot += gl_NumWorkGroups.y) {
+        const PhotonRecord record = records[slot * push.invocations + lane];
+        const uint place = atomicAdd(cursors[record.collector], 1u);
+        sorted[place] = uvec3(record.direction, record.power);
+    }
 }

@@ -21,13 +21,16 @@ layout(constant_id = 3) const bool PERIODIC = false;    // a plane-parallel laye
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform usampler3D collectorIndex;
 layout(binding = 2, scalar) readonly buffer Params { TraceParams storedParams; };
-layout(binding = 3, scalar) readonly buffer Majorants { float majorants[]; };  // normalised
+layout(binding = 3) uniform sampler3D majorants;  // normalised; negative: distances in empty space
 layout(binding = 4, scalar) readonly buffer InverseCdf { float inverseCdf[]; };
 layout(binding = 5, scalar) buffer States { TraceState states[]; };
 layout(binding = 6, scalar) writeonly buffer Records { PhotonRecord records[]; };
 layout(binding = 7, scalar) buffer RecordCounts { uint recordCounts[]; };        // of each invocation
 layout(binding = 8, scalar) buffer CollectorCounts { uint collectorCounts[]; };  // of each collector
 layout(binding = 9, scalar) buffer Counters { TraceCounters counters; };
+
+/// Cells that a photon may cross before the lanes that have met something go on.
+const int CROSSINGS = 16;
 
 // Held in registers: a load from a buffer costs a loop over the lanes on lavapipe, in every step.
 TraceParams params;
@@ -117,9 +120,13 @@ void main() {
             emitPhoton(state);
             walk = beginWalk(state);
         }
-        const float majorant =
-            majorants[(walk.cell.z * params.cells.y + walk.cell.y) * params.cells.x + walk.cell.x];
-        const uint event = walkStep(walk, majorant * params.extinction, params.cells, PERIODIC);
+        // Lanes that cross cells do not wait for those that collide.
+        float majorant = 0.0;
+        uint event = WALK_CROSSED;
+        for (int crossed = 0; crossed < CROSSINGS && event == WALK_CROSSED; ++crossed) {
+            majorant = texelFetch(majorants, walk.cell, 0).r;
+            event = walkStep(walk, majorant < 0.0 ? majorant : majorant * params.extinction, params.cells, PERIODIC);
+        }
         bool ended = event == WALK_LEFT;
         if (ended) {
             ++escaped;

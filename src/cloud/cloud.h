@@ -44,7 +44,7 @@ struct Cloud {
     gpu::Image density;         ///< normalised: 1 is the field's maximum
     gpu::Image collectorIndex;  ///< number of the collector of each voxel; the format's largest value: none
     MajorantGrid majorants;     ///< that photons walk through: a single one or one a cell
-    gpu::Buffer majorantBuffer;
+    gpu::Image majorantImage;
     MajorantGrid cells;  ///< one a cell always: where a march finds empty space
     gpu::Buffer cellBuffer;
     std::vector<Sample> samples;
@@ -63,6 +63,8 @@ struct PrepareOptions {
 /// Steps 1 to 5 of the preparation: gradient, samples, kD-tree, leaf statistics, collectors. `volume` must not be
 /// empty. Errors: Error where interrupted.
 Cloud prepare(gpu::Context& context, const vdb::Volume& volume, const PrepareOptions& options);
+
+std::vector<float> majorantsAndDistances(const MajorantGrid& grid);
 
 /// Majorants on cells of `edge` blocks, or a single one for the whole volume (edge 0), from those of the blocks.
 MajorantGrid majorantGrid(const std::vector<float>& blockMaxima, const glm::ivec3& blocks, const glm::ivec3& size,

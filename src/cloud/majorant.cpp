@@ -11,6 +11,34 @@ constexpr float slack = 1.0F + 1e-5F;
 
 }  // namespace
 
+std::vector<float> majorantsAndDistances(const MajorantGrid& grid) {
+    std::vector<float> values = grid.maxima;
+    const glm::ivec3 n = grid.cells;
+    std::vector<int> distance(values.size());
+    const int far = n.x + n.y + n.z;
+    const auto at = [&](int x, int y, int z) { return static_cast<std::size_t>((z * n.y + y) * n.x + x); };
+    for (std::size_t i = 0; i < values.size(); ++i) distance[i] = values[i] > 0.0F ? 0 : far;
+    const auto pass = [&](int sign) {
+        const glm::ivec3 first = sign > 0 ? glm::ivec3(0) : n - 1;
+        for (int z = first.z; z >= 0 && z < n.z; z += sign)
+            for (int y = first.y; y >= 0 && y < n.y; y += sign)
+                for (int x = first.x; x >= 0 && x < n.x; x += sign) {
+                    int& own = distance[at(x, y, z)];
+                    for (int k = 0; k < 13 && own > 0; ++k) {
+                        const int X = x + sign * (k % 3 - 1), Y = y + sign * ((k / 3) % 3 - 1),
+                                  Z = z + sign * (k / 9 - 1);
+                        if (X < 0 || Y < 0 || Z < 0 || X >= n.x || Y >= n.y || Z >= n.z) continue;
+                        own = std::min(own, distance[at(X, Y, Z)] + 1);
+                    }
+                }
+    };
+    pass(1);
+    pass(-1);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (distance[i] > 0) values[i] = -static_cast<float>(distance[i]);
+    return values;
+}
+
 MajorantGrid majorantGrid(const std::vector<float>& blockMaxima, const glm::ivec3& blocks, const glm::ivec3& size,
                           int edge, double mass) {
     MajorantGrid grid;

@@ -206,8 +206,14 @@ gpu::Image indexCollectors(gpu::Context& context, const glm::ivec3& size, const 
 
 gpu::Buffer majorantBuffer(gpu::Context& context, const MajorantGrid& grid) {
     gpu::Buffer buffer(context, "majorants", grid.maxima.size() * sizeof(float), Memory::device);
-    gpu::upload(context, buffer, grid.maxima);
+    gpu::upload(context, buffer, majorantsAndDistances(grid));
     return buffer;
+}
+
+gpu::Image majorantImage(gpu::Context& context, const MajorantGrid& grid) {
+    gpu::Image image(context, "majorants", grid.cells, VK_FORMAT_R32_SFLOAT);
+    gpu::upload(context, image, majorantsAndDistances(grid));
+    return image;
 }
 
 KdTree makeTree(const std::vector<Sample>& samples, const vdb::Volume& volume, const Blocks& blocks,
@@ -265,7 +271,7 @@ Cloud prepare(gpu::Context& context, const vdb::Volume& volume, const PrepareOpt
                  std::move(density),
                  std::move(index),
                  grid,
-                 majorantBuffer(context, grid),
+                 majorantImage(context, grid),
                  cells,
                  majorantBuffer(context, cells),
                  std::move(samples),

@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
-#include "base/error.h"
 #include "base/interrupt.h"
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
@@ -38,6 +38,8 @@ using gpu::SpecConstant;
 constexpr std::uint32_t roundRecords = 1U << 21U;
 /// Enough lanes to fill the device, few enough that each walks dozens of photons.
 constexpr std::uint32_t cpuInvocations = 2048, gpuInvocations = 65536;
+/// Rows of workgroups that share the records of the invocations.
+constexpr std::uint32_t sortRows = 16;
 constexpr std::uint32_t stepLimit = 1U << 15U;
 /// A photon that collides more often is counted as lost. Optical depth 1e6 with albedo 1 stays below it.
 constexpr std::uint32_t collisionLimit = 1U << 24U;
@@ -102,13 +104,15 @@ struct PhotonMap::State {
     int traced = 0;        // generations so far
     int baseExponent = 0;  // of the ring's unit [W]; set by the first generation that has light
     bool hasUnit = false;
+    std::optional<int> unsettled;  // unit exponent of what `generation` holds and the sum does not
     Counters counters;
     std::vector<gpu::PassTime> times;
     std::vector<gpu::Step> steps;
 
     shared::TraceParams traceParams(const Emission& emission, const scene::Sun& sun, int unitExponent) const;
     void traceRound();
-    void accumulate(int unitExponent);
+    void makeRoom(int unitExponent);
+    void settle();
     void addTimes();
 };
 
@@ -204,7 +208,7 @@ void PhotonMap::State::traceRound() {
                       {{"density", cloud.density, Sampler::linear},
                        {"collectorIndex", cloud.collectorIndex, Sampler::nearest},
                        {"Params", params},
-                       {"Majorants", cloud.majorantBuffer},
+                       {"majorants", cloud.majorantImage, Sampler::nearest},
                        {"InverseCdf", inverseCdf},
                        {"States", states},
                        {"Records", records},
@@ -223,7 +227,7 @@ void PhotonMap::State::traceRound() {
     commands.barrier("offsets");
     commands.dispatch(scatterProgram,
                       {{"Records", records}, {"RecordCounts", recordCounts}, {"Cursors", cursors}, {"Sorted", sorted}},
-                      push, {invocations / 64, recordCapacity, 1});
+                      push, {invocations / 64, std::min(recordCapacity, sortRows), 1});
     commands.barrier("sorted records");
     commands.pass("gather");
     commands.dispatchIndirect(gatherProgram,
@@ -238,12 +242,26 @@ void PhotonMap::State::traceRound() {
     addTimes();
 }
 
-void PhotonMap::State::accumulate(int unitExponent) {
+/// Clears the generation's buffer, where it does not hold light in the same unit that the sum can take later. A ring
+/// has to know its generations one by one.
+void PhotonMap::State::makeRoom(int unitExponent) {
+    if (unsettled == unitExponent && !options.keepRing) return;
+    settle();
+    commands.begin();
+    commands.fill(generation, 0);
+    commands.submit();
+    commands.wait();
+    unsettled = unitExponent;
+}
+
+/// Adds what was traced to the sum.
+void PhotonMap::State::settle() {
+    if (!unsettled) return;
     saturated.mapped<std::uint32_t>()[0] = 0;
-    const std::size_t slot = static_cast<std::size_t>(traced % options.generations);
-    // Without a ring the slot is not read or written; the generation's buffer stands in its place.
+    const std::size_t slot = static_cast<std::size_t>((traced - 1) % options.generations);
+    // Without a ring the slot is not read or written; another buffer stands in its place.
     const Buffer& oldest = options.keepRing ? slots[slot] : radiance;
-    const int shift = unitExponent - std::countr_zero(static_cast<unsigned>(shared::COEFFICIENT_SCALE)) - baseExponent;
+    const int shift = *unsettled - std::countr_zero(static_cast<unsigned>(shared::COEFFICIENT_SCALE)) - baseExponent;
     commands.begin();
     commands.pass("accumulate");
     commands.dispatch(
@@ -253,6 +271,7 @@ void PhotonMap::State::accumulate(int unitExponent) {
     commands.wait();
     addTimes();
     counters.saturated += saturated.mapped<std::uint32_t>()[0];
+    unsettled.reset();
 }
 
 void PhotonMap::State::addTimes() {
@@ -287,10 +306,6 @@ PhotonMap::~PhotonMap() = default;
 void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
     State& s = *state_;
     const Emission emission = makeEmission(sun, sky, s.faceArea);
-    s.commands.begin();
-    s.commands.fill(s.generation, 0);
-    s.commands.submit();
-    s.commands.wait();
     int unitExponent = 0;
     if (!emission.dark()) {
         const double most = std::max(maxChannel(emission.sunPower(s.options.photonsPerGeneration)),
@@ -300,11 +315,12 @@ void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
             s.baseExponent = exponentAbove(maxChannel(emission.sunFlux + emission.skyFlux)) - unitBits;
             s.hasUnit = true;
         }
+        s.makeRoom(unitExponent);
         s.params.mapped<shared::TraceParams>()[0] = s.traceParams(emission, sun, unitExponent);
         resetStates(s.states.mapped<shared::TraceState>().subspan(0, s.invocations));
         const std::uint64_t recordsBefore = s.counters.records;
         do {
-            if (interrupted()) throw Error("interrupted", "", "nothing was written");
+            stopIfInterrupted();
             s.traceRound();
             const shared::TraceCounters& c = s.counterBuffer.mapped<shared::TraceCounters>()[0];
             s.counters.events += c.events;
@@ -316,13 +332,16 @@ void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
             requireCountable(s.counters.records - recordsBefore);
         } while (s.counterBuffer.mapped<shared::TraceCounters>()[0].pending > 0);
         s.counters.emitted += s.options.photonsPerGeneration;
+    } else if (s.options.keepRing) {
+        s.makeRoom(unitExponent);  // the oldest generation gives way to an empty one
     }
-    s.accumulate(unitExponent);
     ++s.traced;
+    if (s.options.keepRing) s.settle();
 }
 
-void PhotonMap::reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel) const {
-    const State& s = *state_;
+void PhotonMap::reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel) {
+    State& s = *state_;
+    s.settle();
     shared::ReconstructPush push{};
     push.collectors = s.collectors;
     push.scale = static_cast<float>(unit() / std::max(1, generationsInRing()));
@@ -332,6 +351,10 @@ void PhotonMap::reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel) 
     commands.dispatch(s.reconstructProgram,
                       {{"Sum", s.sum}, {"Moments", s.moments}, {"Collectors", s.places}, {"Radiance", s.radiance}},
                       push, linearGroups(s.collectors, 64));
+}
+
+void PhotonMap::settle() {
+    state_->settle();
 }
 
 const gpu::Buffer& PhotonMap::radiance() const {
@@ -353,7 +376,8 @@ double PhotonMap::unit() const {
     return std::ldexp(1.0, state_->baseExponent);
 }
 
-std::vector<std::int64_t> PhotonMap::downloadSum() const {
+std::vector<std::int64_t> PhotonMap::downloadSum() {
+    state_->settle();
     auto values = gpu::download<std::int64_t>(state_->context, state_->sum);
     values.resize(state_->coefficients);
     return values;

@@ -50,8 +50,11 @@ class PhotonMap {
     /// Traces one generation into the oldest slot. Power of the lights: W·m⁻² (sun), W·m⁻²·sr⁻¹ (sky).
     void trace(const scene::Sun& sun, const scene::Sky& sky);
 
+    /// Adds what has been traced to the sum; so do reconstruct() and downloadSum().
+    void settle();
+
     /// Radiance of every collector towards the eye, as vec3 in `radiance()`: recorded into `commands`.
-    void reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel) const;
+    void reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel);
     const gpu::Buffer& radiance() const;
 
     int generationsInRing() const;
@@ -62,7 +65,7 @@ class PhotonMap {
     const std::vector<gpu::Step>& steps() const;
 
     /// For tests: the running sum, and one slot of the ring, in units of `unit()`.
-    std::vector<std::int64_t> downloadSum() const;
+    std::vector<std::int64_t> downloadSum();
     std::vector<std::int64_t> downloadSlot(int slot) const;
     /// Watts that one count of the ring stands for.
     double unit() const;

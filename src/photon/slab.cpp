@@ -55,12 +55,12 @@ class Layer {
         : context_(context),
           slab_(slab),
           tables_(phase::makeScatteringTables(slab.phase, 0.0, glm::dvec3(slab.albedo), 2, 0.0)),
-          cells_(std::clamp(static_cast<int>(std::ceil(slab.tau / cellThickness)), 1, 1 << 20)),
+          cells_(std::clamp(static_cast<int>(std::ceil(slab.tau / cellThickness)), 1, 2048)),
           program_(context, "trace", traceSpirv(), traceConstants(tables_, glm::dvec3(slab.albedo), true)),
           density_(context, "density", glm::ivec3(1), VK_FORMAT_R32_SFLOAT),
           index_(context, "collector index", glm::ivec3(1), VK_FORMAT_R32_UINT),
+          majorants_(context, "majorants", glm::ivec3(1, cells_, 1), VK_FORMAT_R32_SFLOAT),
           params_(context, "trace params", sizeof(shared::TraceParams), Memory::host),
-          majorants_(context, "majorants", static_cast<std::uint64_t>(cells_) * sizeof(float), Memory::device),
           inverseCdf_(context, "inverse cdf", tables_.inverseCdf.size() * sizeof(float), Memory::device),
           states_(context, "trace states", lanes * sizeof(shared::TraceState), Memory::host),
           records_(context, "records", sizeof(shared::PhotonRecord), Memory::device),
@@ -80,7 +80,7 @@ class Layer {
         resetStates(states_.mapped<shared::TraceState>().subspan(0, lanes));
         counters_.mapped<shared::TraceCounters>()[0] = {};
         do {
-            if (interrupted()) throw Error("interrupted", "", "nothing was written");
+            stopIfInterrupted();
             counters_.mapped<shared::TraceCounters>()[0].pending = 0;
             round();
         } while (counters_.mapped<shared::TraceCounters>()[0].pending > 0);
@@ -93,8 +93,8 @@ class Layer {
     phase::ScatteringTables tables_;
     int cells_;
     gpu::Program<gpu::NoPush> program_;
-    gpu::Image density_, index_;
-    Buffer params_, majorants_, inverseCdf_, states_, records_, recordCounts_, collectorCounts_, counters_;
+    gpu::Image density_, index_, majorants_;
+    Buffer params_, inverseCdf_, states_, records_, recordCounts_, collectorCounts_, counters_;
     gpu::Commands commands_;
 
     shared::TraceParams params(std::uint32_t photons, std::uint32_t batch) const {
@@ -132,7 +132,7 @@ class Layer {
                            {{"density", density_, Sampler::linearClamp},
                             {"collectorIndex", index_, Sampler::nearest},
                             {"Params", params_},
-                            {"Majorants", majorants_},
+                            {"majorants", majorants_, Sampler::nearest},
                             {"InverseCdf", inverseCdf_},
                             {"States", states_},
                             {"Records", records_},

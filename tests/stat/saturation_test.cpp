@@ -26,7 +26,7 @@ class Saturation : public test::VulkanTest {
     void traceSky(double radiance) { map.trace(test::noSun(), test::skyOf(glm::dvec3(radiance))); }
 
     /// Of the coefficients c_00, which are positive.
-    std::pair<std::int64_t, std::int64_t> rangeOfLevels() const {
+    std::pair<std::int64_t, std::int64_t> rangeOfLevels() {
         const std::vector<std::int64_t> sum = map.downloadSum();
         std::int64_t least = sum[0], most = sum[0];
         for (std::size_t i = 0; i < sum.size(); i += bands * bands) {
