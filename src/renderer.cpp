@@ -10,6 +10,7 @@
 #include "cloud/cloud.h"
 #include "draw/billboards.h"
 #include "draw/camera.h"
+#include "draw/collector_sun.h"
 #include "draw/light_field.h"
 #include "draw/march.h"
 #include "draw/sky.h"
@@ -68,6 +69,7 @@ struct Renderer::State {
     std::optional<cloud::Cloud> cloud;
     std::optional<photon::PhotonMap> photons;
     std::optional<draw::SunDepth> sunDepth;
+    std::optional<draw::CollectorSun> collectorSun;
     std::optional<draw::PhaseTables> phase;
     std::optional<draw::LightField> lightField;
     std::optional<draw::Billboards> billboards;
@@ -173,12 +175,14 @@ void Renderer::State::prepareDrawing() {
     const draw::DrawFeatures features{!medium.tables.oneTurnH.empty(), scatters() && hasSun(), photons.has_value(),
                                       medium.albedo == glm::dvec3(medium.albedo.x)};
     if (features.sun) sunDepth.emplace(context, *cloud);
-    if (features.photons) lightField.emplace(context, *cloud);
+    if (features.photons) lightField.emplace(context, *cloud, static_cast<std::uint64_t>(scene.photonMap.photons));
     phase.emplace(context, medium.tables);
-    if (scene.draw.mode == scene::DrawMode::billboards)
+    if (scene.draw.mode == scene::DrawMode::billboards) {
         billboards.emplace(context, *cloud, features);
-    else
+        if (features.sun) collectorSun.emplace(context, *cloud);
+    } else {
         march.emplace(context, *cloud, features);
+    }
 }
 
 glm::dvec3 Renderer::State::toVoxel(const glm::dvec3& world) const {
@@ -214,6 +218,10 @@ shared::FieldParams Renderer::State::fieldParams() const {
 void Renderer::State::recordLight() {
     if (sunDepth && !sunDrawn) {
         sunDepth->record(commands, -scene.sun.directionTo, medium.extinction);
+        if (collectorSun) {
+            commands.barrier("sun depths");
+            collectorSun->record(commands, *sunDepth);
+        }
         sunDrawn = true;
     }
     if (photons) {
@@ -231,6 +239,8 @@ void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inp
     values.field = fieldParams();
     values.firstRow = firstRow;
     values.rows = rows;
+    values.samples =
+        draw::raysAcross(camera, cloud->toWorld.point(0.5 * glm::dvec3(cloud->size)), std::cbrt(cloud->voxelVolume));
     values.tilesAcross = billboards ? billboards->tilesAcross() : 0;
     params.mapped<shared::DrawParams>()[0] = values;
     commands.begin();
@@ -245,7 +255,6 @@ void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inp
 }
 
 void Renderer::State::drawCloud(LayeredImage& image) {
-    if (billboards) billboards->prepare(camera, medium.extinction);
     if (sunDepth || photons) {
         commands.begin();
         recordLight();
@@ -253,6 +262,9 @@ void Renderer::State::drawCloud(LayeredImage& image) {
         commands.wait();
         for (const gpu::PassTime& pass : commands.times()) addTime(statistics.passes, pass);
     }
+    if (billboards)
+        billboards->prepare(camera, medium.extinction,
+                            collectorSun ? collectorSun->values() : std::span<const float>());
     const int band = bandRows(camera);
     gpu::Buffer params(context, "draw params", sizeof(shared::DrawParams), gpu::Memory::host);
     const gpu::Buffer pixels(
@@ -279,8 +291,10 @@ LayeredImage Renderer::draw() {
     const auto start = Clock::now();
     LayeredImage image = draw::skyImage(s.camera, s.scene.sun, s.scene.sky);
     s.statistics.passes.clear();
-    if (s.photons)
+    if (s.photons) {
+        s.photons->settle();
         for (const gpu::PassTime& pass : s.photons->times()) addTime(s.statistics.passes, pass);
+    }
     if (s.billboards || s.march) s.drawCloud(image);
     s.statistics.drawSeconds += secondsSince(start);
     return image;

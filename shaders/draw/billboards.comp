@@ -37,21 +37,28 @@ void addBillboard(inout RayLight ray, SunView sun, Billboard billboard, vec3 ori
     if (far <= near) return;
     const float thickness = billboard.extinction * (far - near);
     const vec3 seen = origin + mix(near, far, seenAt(thickness, 0.5)) * direction;
-    addStretch(ray, sun, near, far, thickness, params.field.eyeVoxel + params.field.worldToVoxel * seen);
+    addStretch(ray, sun, near, far, thickness, params.field.eyeVoxel + params.field.worldToVoxel * seen,
+               SUN ? max(billboard.sunDepth, sunDepthAt(params.field.eyeVoxel + params.field.worldToVoxel * seen)) : 0.0);
 }
 
 void main() {
     params = storedParams;
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, params.firstRow);
     if (pixel.x >= params.view.size.x || pixel.y >= params.firstRow + params.rows) return;
-    vec3 origin, direction;
-    viewRay(params.view, pixel, origin, direction);
-    const SunView sun = sunView(params.light, direction);
-    RayLight ray = emptyRay();
     const uint tile = uint((pixel.y / TILE_EDGE) * params.tilesAcross + pixel.x / TILE_EDGE);
     const uint last = tileOffsets[tile + 1u];
     const float opaque = opaqueDepth();
-    for (uint i = tileOffsets[tile]; i < last && ray.depth < opaque; ++i)
-        addBillboard(ray, sun, billboards[tileLists[i]], origin, direction);
-    pixels[(pixel.y - params.firstRow) * params.view.size.x + pixel.x] = finishedPixel(ray, direction);
+    PixelSum sum = emptyPixel();
+    for (int part = 0; part < params.samples * params.samples; ++part) {
+        vec3 origin, direction;
+        viewRay(params.view, pixel * params.samples + ivec2(part % params.samples, part / params.samples),
+                params.samples, origin, direction);
+        const SunView sun = sunView(params.light, direction);
+        RayLight ray = emptyRay();
+        for (uint i = tileOffsets[tile]; i < last && ray.depth < opaque; ++i)
+            addBillboard(ray, sun, billboards[tileLists[i]], origin, direction);
+        addRay(sum, ray, direction);
+    }
+    pixels[(pixel.y - params.firstRow) * params.view.size.x + pixel.x] =
+        finishedPixel(sum, params.samples * params.samples);
 }

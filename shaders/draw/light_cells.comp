@@ -8,14 +8,15 @@ layout(local_size_x = 64) in;
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform usampler3D collectorIndex;
 layout(binding = 2, scalar) readonly buffer Radiance { vec3 collectorRadiance[]; };
-layout(binding = 3, scalar) writeonly buffer Cells { vec4 cells[]; };
+layout(binding = 3) uniform writeonly image3D cells;
 layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
 void main() {
     const uint index = linearInvocation(64u);
     const uvec3 grid = uvec3(push.grid);
     if (index >= grid.x * grid.y * grid.z) return;
-    const ivec3 lower = push.edge * ivec3(index % grid.x, (index / grid.x) % grid.y, index / (grid.x * grid.y));
+    const ivec3 cell = ivec3(index % grid.x, (index / grid.x) % grid.y, index / (grid.x * grid.y));
+    const ivec3 lower = push.edge * cell;
     const ivec3 upper = min(lower + push.edge, push.size);
     vec4 sum = vec4(0.0);
     for (int z = lower.z; z < upper.z; ++z)
@@ -27,5 +28,5 @@ void main() {
                     sum += mass * vec4(collectorRadiance[collector], 1.0);
                 }
             }
-    cells[index] = sum;
+    imageStore(cells, cell, sum);
 }

@@ -6,7 +6,7 @@
 #include "lib/linear.glsl"
 
 layout(local_size_x = 64) in;
-layout(binding = 0, scalar) readonly buffer Cells { vec4 cells[]; };
+layout(binding = 0) uniform sampler3D cells;
 layout(binding = 1) uniform writeonly image3D lightField;
 layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
@@ -15,14 +15,11 @@ void main() {
     const uvec3 grid = uvec3(push.grid);
     if (index >= grid.x * grid.y * grid.z) return;
     const ivec3 cell = ivec3(index % grid.x, (index / grid.x) % grid.y, index / (grid.x * grid.y));
+    // the mean of the eight linear look-ups half a cell away has exactly these weights
     vec4 sum = vec4(0.0);
-    for (int z = -1; z <= 1; ++z)
-        for (int y = -1; y <= 1; ++y)
-            for (int x = -1; x <= 1; ++x) {
-                const ivec3 at = cell + ivec3(x, y, z);
-                if (any(lessThan(at, ivec3(0))) || any(greaterThanEqual(at, push.grid))) continue;
-                const ivec3 weights = 2 - abs(ivec3(x, y, z));
-                sum += float(weights.x * weights.y * weights.z) * cells[(at.z * push.grid.y + at.y) * push.grid.x + at.x];
-            }
-    imageStore(lightField, cell, sum / 64.0);
+    for (int corner = 0; corner < 8; ++corner) {
+        const ivec3 upper = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
+        sum += textureLod(cells, vec3(cell + upper) * push.scale, 0.0);
+    }
+    imageStore(lightField, cell, 0.125 * sum);
 }

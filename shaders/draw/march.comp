@@ -56,23 +56,16 @@ void marchCell(inout RayLight ray, SunView sun, vec3 start, vec3 velocity, vec2 
         if (found > 0.0) {
             const float thickness = found * params.field.extinction * dt;
             const vec3 seen = start + velocity * (near + seenAt(thickness, offset) * dt);
-            addStretch(ray, sun, near, near + dt, thickness, seen);
+            addStretch(ray, sun, near, near + dt, thickness, seen, SUN ? sunDepthAt(seen) : 0.0);
         }
     }
 }
 
-void main() {
-    params = storedParams;
-    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, params.firstRow);
-    if (pixel.x >= params.view.size.x || pixel.y >= params.firstRow + params.rows) return;
-    vec3 origin, direction;
-    viewRay(params.view, pixel, origin, direction);
+/// The light of one ray; `offset` is where in its steps it looks.
+RayLight march(vec3 origin, vec3 direction, float offset) {
     const SunView sun = sunView(params.light, direction);
     const vec3 start = params.field.eyeVoxel + params.field.worldToVoxel * origin;
     const vec3 velocity = params.field.worldToVoxel * direction;
-    // interleaved gradient noise (Jimenez 2014): neighbouring pixels differ as much as they can
-    const float offset = fract(52.9829189 * fract(dot(vec2(pixel) + 0.5, vec2(0.06711056, 0.00583715))));
-
     RayLight ray = emptyRay();
     const vec2 inside = clipToVolume(start, velocity);
     const float opaque = opaqueDepth();
@@ -93,5 +86,22 @@ void main() {
         if (any(lessThan(cell, ivec3(0))) || any(greaterThan(cell, last))) break;
         t = leave;
     }
-    pixels[(pixel.y - params.firstRow) * params.view.size.x + pixel.x] = finishedPixel(ray, direction);
+    return ray;
+}
+
+void main() {
+    params = storedParams;
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, params.firstRow);
+    if (pixel.x >= params.view.size.x || pixel.y >= params.firstRow + params.rows) return;
+    PixelSum sum = emptyPixel();
+    for (int i = 0; i < params.samples * params.samples; ++i) {
+        const ivec2 fine = pixel * params.samples + ivec2(i % params.samples, i / params.samples);
+        vec3 origin, direction;
+        viewRay(params.view, fine, params.samples, origin, direction);
+        // interleaved gradient noise (Jimenez 2014): neighbours differ as much as they can
+        const float offset = fract(52.9829189 * fract(dot(vec2(fine) + 0.5, vec2(0.06711056, 0.00583715))));
+        addRay(sum, march(origin, direction, offset), direction);
+    }
+    pixels[(pixel.y - params.firstRow) * params.view.size.x + pixel.x] =
+        finishedPixel(sum, params.samples * params.samples);
 }

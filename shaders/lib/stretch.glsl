@@ -40,8 +40,9 @@ float seenAt(float thickness, float u) {
     return thickness < 0.05 ? u : -log(1.0 - u * (1.0 - exp(-thickness))) / thickness;
 }
 
-/// Adds a stretch of optical thickness `thickness` between the distances near and far, lit as at `voxel`.
-void addStretch(inout RayLight ray, SunView sun, float near, float far, float thickness, vec3 voxel) {
+/// Adds a stretch of optical thickness `thickness` between the distances near and far, lit as at `voxel`, the sun's
+/// light through `tauSun`.
+void addStretch(inout RayLight ray, SunView sun, float near, float far, float thickness, vec3 voxel, float tauSun) {
     if (PHOTONS) {
         // multiply scattered light: (1 − f) σs L against the turned medium's own extinction κ σt
         const vec3 turned = params.light.decay * thickness;
@@ -50,7 +51,7 @@ void addStretch(inout RayLight ray, SunView sun, float near, float far, float th
         ray.cloud += params.light.albedo * params.light.turnShare * inScattered(voxel) * filled *
                      decayed(-params.light.decay * ray.depth);
     }
-    if (SUN) ray.cloud += sunScattered(sun, params.light, sunDepthAt(voxel), ray.depth, thickness);
+    if (SUN) ray.cloud += sunScattered(sun, params.light, tauSun, ray.depth, thickness);
     const float weight = exp(-ray.depth) * (1.0 - exp(-thickness));
     ray.distance += weight * 0.5 * (near + far);
     ray.weight += weight;
@@ -58,16 +59,37 @@ void addStretch(inout RayLight ray, SunView sun, float near, float far, float th
     ray.depth += thickness;
 }
 
-Pixel finishedPixel(RayLight ray, vec3 direction) {
+/// A pixel that no ray has reached; `depth` holds Σ weight · distance until it is finished.
+struct PixelSum {
+    Pixel pixel;
+    float weight;
+};
+
+PixelSum emptyPixel() {
+    return PixelSum(Pixel(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, FAR_DEPTH), 0.0);
+}
+
+void addRay(inout PixelSum sum, RayLight ray, vec3 direction) {
     const float transmittance = exp(-ray.depth);
     const vec3 turned = exp(-params.light.decay * ray.depth);
-    Pixel pixel;
-    pixel.cloud = ray.cloud;
-    pixel.radiance = ray.cloud + background(params.light, direction, transmittance, turned);
-    pixel.transmittance = vec3(transmittance);
-    pixel.alpha = 1.0 - (turned.x + turned.y + turned.z) / 3.0;
-    pixel.depth = ray.weight > 0.0 ? ray.distance / ray.weight : FAR_DEPTH;
-    pixel.front = ray.front;
+    sum.pixel.cloud += ray.cloud;
+    sum.pixel.radiance += ray.cloud + background(params.light, direction, transmittance, turned);
+    sum.pixel.transmittance += vec3(transmittance);
+    sum.pixel.alpha += 1.0 - (turned.x + turned.y + turned.z) / 3.0;
+    sum.pixel.depth += ray.distance;
+    sum.pixel.front = min(sum.pixel.front, ray.front);
+    sum.weight += ray.weight;
+}
+
+/// The mean of `rays` rays.
+Pixel finishedPixel(PixelSum sum, int rays) {
+    const float share = 1.0 / float(rays);
+    Pixel pixel = sum.pixel;
+    pixel.cloud *= share;
+    pixel.radiance *= share;
+    pixel.transmittance *= share;
+    pixel.alpha *= share;
+    pixel.depth = sum.weight > 0.0 ? pixel.depth / sum.weight : FAR_DEPTH;
     return pixel;
 }
 

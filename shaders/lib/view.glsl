@@ -4,9 +4,10 @@
 
 #include "shared/draw.h"
 
-/// The ray through the middle of a pixel (rows from the top): origin and unit direction.
-void viewRay(ViewParams view, ivec2 pixel, out vec3 origin, out vec3 direction) {
-    const vec2 place = (vec2(pixel) + 0.5) / vec2(view.size);
+/// The ray through the middle of a part of a pixel (rows from the top), of which there are `samples` along each side:
+/// origin and unit direction.
+void viewRay(ViewParams view, ivec2 part, int samples, out vec3 origin, out vec3 direction) {
+    const vec2 place = (vec2(part) + 0.5) / vec2(view.size * samples);
     const vec2 plane = vec2(2.0 * place.x - 1.0, 1.0 - 2.0 * place.y);
     origin = vec3(0.0);
     if (view.projection == PROJECTION_ORTHOGRAPHIC) {

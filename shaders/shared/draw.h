@@ -58,6 +58,7 @@ struct DrawParams {
     int firstRow;  // of the band that this dispatch draws
     int rows;
     int tilesAcross;
+    int samples;  // rays a pixel, along each side: a grid of them where pixels are larger than voxels
 };
 
 /// A homogeneous sphere that stands for a leaf: its extinction mass is the leaf's, whatever the radius.
@@ -65,7 +66,7 @@ struct Billboard {
     vec3 centre;
     float radius;
     float extinction;  // 1/m
-    uint collector;
+    float sunDepth;    // optical depth to the sun of the leaf as a whole
 };
 
 /// What a drawing pass leaves of one pixel.
@@ -87,11 +88,20 @@ struct SunDepthPush {
     float step;  // optical depth of one texel's length at density 1
 };
 
+/// From a grid of optical depth to the collectors.
+struct CollectorSunPush {
+    mat3 voxelToTexture;  // of the grid
+    vec3 textureOffset;
+    vec3 inverseSize;  // of the density volume
+    uint collectors;
+};
+
 /// The grid on which collectors' radiance is smoothed.
 struct LightFieldPush {
     ivec3 size;  // voxels
     ivec3 grid;  // cells
     int edge;    // of a cell, voxels
+    vec3 scale;  // cells → texture coordinates
 };
 
 #ifdef __cplusplus
@@ -99,11 +109,12 @@ struct LightFieldPush {
 static_assert(sizeof(ViewParams) == 56 && offsetof(ViewParams, projection) == 52);
 static_assert(sizeof(LightParams) == 88 && offsetof(LightParams, tauMaximum) == 84);
 static_assert(sizeof(FieldParams) == 152 && offsetof(FieldParams, sunOffset) == 140);
-static_assert(sizeof(DrawParams) == 308 && offsetof(DrawParams, tilesAcross) == 304);
-static_assert(sizeof(Billboard) == 24 && offsetof(Billboard, collector) == 20);
+static_assert(sizeof(DrawParams) == 312 && offsetof(DrawParams, samples) == 308);
+static_assert(sizeof(Billboard) == 24 && offsetof(Billboard, sunDepth) == 20);
 static_assert(sizeof(Pixel) == 48 && offsetof(Pixel, front) == 44);
 static_assert(sizeof(SunDepthPush) == 76 && offsetof(SunDepthPush, step) == 72);
-static_assert(sizeof(LightFieldPush) == 28 && offsetof(LightFieldPush, edge) == 24);
+static_assert(sizeof(CollectorSunPush) == 64 && offsetof(CollectorSunPush, collectors) == 60);
+static_assert(sizeof(LightFieldPush) == 40 && offsetof(LightFieldPush, scale) == 28);
 #endif
 
 SHARED_END

@@ -2,7 +2,6 @@
 
 #include <chrono>
 
-#include "base/error.h"
 #include "base/interrupt.h"
 #include "bench/plan.h"
 #include "renderer.h"
@@ -23,7 +22,7 @@ struct Timed {
 
 /// Seconds of a generation.
 double traceOne(Renderer& renderer) {
-    if (interrupted()) throw Error("interrupted", "", "nothing was written");
+    stopIfInterrupted();
     const Clock::time_point start = Clock::now();
     renderer.traceGeneration();
     return secondsSince(start);

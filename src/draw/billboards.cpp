@@ -12,14 +12,25 @@ namespace spirv {
 #include "spirv/draw/billboards.comp.h"
 }  // namespace spirv
 
-/// Radius of a billboard against that of the sphere with its leaf's volume: neighbours overlap and no holes show.
-constexpr double overlap = 1.3;
+/// Radius of a billboard against that of the sphere with the volume that its leaf's density takes up: neighbours
+/// overlap and no holes show. A sphere as large as the whole leaf would stand out of the cloud at its edge, where it
+/// glows with the sun behind.
+constexpr double overlap = 1.1;
+
+/// Voxels of the leaf that hold density; no fewer than its mass fills at the greatest density, 1.
+double filledVoxels(const cloud::Collector& collector) {
+    const glm::dvec3 extent = glm::dvec3(collector.box.upper - collector.box.lower);
+    const double occupied = static_cast<double>(collector.occupied) * extent.x * extent.y * extent.z;
+    return std::max(occupied, static_cast<double>(collector.mass));
+}
 
 }  // namespace
 
-std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, double extinction, const Camera& camera) {
+std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, double extinction, const Camera& camera,
+                                              std::span<const float> sunDepths) {
     struct Placed {
         double order;
+        std::size_t collector;
         shared::Billboard billboard;
     };
     std::vector<Placed> placed;
@@ -28,18 +39,18 @@ std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, double 
     for (std::size_t i = 0; i < cloud.collectors.size(); ++i) {
         const cloud::Collector& collector = cloud.collectors[i];
         const glm::dvec3 centre = cloud.toWorld.point(glm::dvec3(collector.centre)) - camera.position;
-        const glm::dvec3 extent = glm::dvec3(collector.box.upper - collector.box.lower);
-        const double volume = extent.x * extent.y * extent.z * cloud.voxelVolume;
-        const double radius = overlap * std::cbrt(volume * 3.0 / (4.0 * std::numbers::pi));
+        const double radius =
+            overlap * std::cbrt(filledVoxels(collector) * cloud.voxelVolume * 3.0 / (4.0 * std::numbers::pi));
         const double mass = extinction * static_cast<double>(collector.mass) * cloud.voxelVolume;
         const double order = parallel ? glm::dot(centre, camera.axes[2]) : glm::dot(centre, centre);
         placed.push_back({order,
+                          i,
                           {glm::vec3(centre), static_cast<float>(radius),
                            static_cast<float>(mass * 3.0 / (4.0 * std::numbers::pi * radius * radius * radius)),
-                           static_cast<std::uint32_t>(i)}});
+                           sunDepths.empty() ? 0.0F : sunDepths[i]}});
     }
     std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
-        return a.order < b.order || (a.order == b.order && a.billboard.collector < b.billboard.collector);
+        return a.order < b.order || (a.order == b.order && a.collector < b.collector);
     });
     std::vector<shared::Billboard> billboards;
     billboards.reserve(placed.size());
@@ -55,8 +66,8 @@ Billboards::Billboards(gpu::Context& context, const cloud::Cloud& cloud, const D
       offsets_(context, "tile offsets", 0, gpu::Memory::device),
       lists_(context, "tile lists", 0, gpu::Memory::device) {}
 
-void Billboards::prepare(const Camera& camera, double extinction) {
-    const std::vector<shared::Billboard> billboards = makeBillboards(cloud_, extinction, camera);
+void Billboards::prepare(const Camera& camera, double extinction, std::span<const float> sunDepths) {
+    const std::vector<shared::Billboard> billboards = makeBillboards(cloud_, extinction, camera, sunDepths);
     tiles_ = makeTileLists(camera, billboards);
     billboards_ = filledBuffer(context_, "billboards", billboards);
     offsets_ = filledBuffer(context_, "tile offsets", tiles_.offsets);

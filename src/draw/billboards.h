@@ -13,8 +13,9 @@
 namespace lumulus::draw {
 
 /// One billboard a collector, relative to the eye, nearest first (ties by index). `extinction` is σt at density 1
-/// [1/m].
-std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, double extinction, const Camera& camera);
+/// [1/m]; `sunDepths` of the collectors, or none where there is no sun.
+std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, double extinction, const Camera& camera,
+                                              std::span<const float> sunDepths = {});
 
 /// Draws a cloud as billboards into bands of pixels.
 class Billboards {
@@ -22,7 +23,7 @@ class Billboards {
     Billboards(gpu::Context& context, const cloud::Cloud& cloud, const DrawFeatures& features);
 
     /// Sorts and bins for this view, and uploads. Before any commands of the frame are recorded.
-    void prepare(const Camera& camera, double extinction);
+    void prepare(const Camera& camera, double extinction, std::span<const float> sunDepths);
 
     /// Records one band of rows; values.firstRow is a multiple of TILE_EDGE.
     void record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawParams& values) const;

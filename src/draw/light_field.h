@@ -12,7 +12,8 @@ namespace lumulus::draw {
 /// Collectors drawn one by one would show as blocks, and their noise as grain.
 class LightField {
   public:
-    LightField(gpu::Context& context, const cloud::Cloud& cloud);
+    /// `photons` of the whole map: the more there are, the finer the grid.
+    LightField(gpu::Context& context, const cloud::Cloud& cloud, std::uint64_t photons);
 
     /// Records what fills the grid from the collectors' radiance (vec3 each).
     void record(gpu::Commands& commands, const gpu::Buffer& radiance) const;
@@ -26,8 +27,7 @@ class LightField {
     const cloud::Cloud& cloud_;
     shared::LightFieldPush push_;
     gpu::Program<shared::LightFieldPush> cellsProgram_, smoothProgram_;
-    gpu::Buffer cells_;
-    gpu::Image image_;
+    gpu::Image cells_, image_;
 };
 
 }  // namespace lumulus::draw

@@ -1,11 +1,15 @@
 #include "draw/view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace lumulus::draw {
 
 namespace {
+
+/// Beyond it a cloud is a few pixels.
+constexpr double maxRaysAcross = 4.0;
 
 int projectionOf(scene::Projection projection) {
     switch (projection) {
@@ -20,6 +24,16 @@ int projectionOf(scene::Projection projection) {
 }
 
 }  // namespace
+
+int raysAcross(const Camera& camera, const glm::dvec3& centre, double voxelLength) {
+    double pixel = camera.orthographicHeight / camera.height;
+    if (camera.projection != scene::Projection::orthographic) {
+        const bool panorama = camera.projection == scene::Projection::panorama;
+        const double angle = (panorama ? std::numbers::pi : 2.0 * camera.tanHalfFov) / camera.height;
+        pixel = angle * glm::length(centre - camera.position);
+    }
+    return static_cast<int>(std::ceil(std::clamp(pixel / voxelLength, 1.0, maxRaysAcross)));
+}
 
 shared::ViewParams viewParams(const Camera& camera) {
     shared::ViewParams view{};

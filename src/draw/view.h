@@ -7,6 +7,9 @@
 
 namespace lumulus::draw {
 
+/// Rays along each side of a pixel, 1 to 4: about one a voxel (edge `voxelLength` [m]) at the cloud's `centre`.
+int raysAcross(const Camera& camera, const glm::dvec3& centre, double voxelLength);
+
 /// The camera for the GPU; positions there are relative to the eye.
 shared::ViewParams viewParams(const Camera& camera);
 

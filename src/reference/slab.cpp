@@ -103,7 +103,7 @@ SlabResult solveSlab(const Slab& slab) {
     std::array<Sums, 64> block;
     Sums sums;
     for (std::uint64_t begin = 0; begin < chunks; begin += block.size()) {
-        if (interrupted()) throw Error("interrupted", "", "nothing was written");
+        stopIfInterrupted();
         const std::uint64_t count = std::min<std::uint64_t>(block.size(), chunks - begin);
         tbb::parallel_for(std::uint64_t{0}, count, [&](std::uint64_t i) {
             const std::uint64_t first = (begin + i) * chunk;

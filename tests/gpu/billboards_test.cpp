@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 #include "draw/bounds.h"
 #include "support/cloud_cases.h"
@@ -13,6 +15,17 @@ namespace {
 
 using glm::dvec3;
 using shared::Billboard;
+
+/// Numbers in the place of the collectors' depths to the sun: they tell which billboard is whose.
+std::vector<float> numbers(std::size_t count) {
+    std::vector<float> result(count);
+    std::iota(result.begin(), result.end(), 0.0F);
+    return result;
+}
+
+std::size_t collectorOf(const Billboard& billboard) {
+    return static_cast<std::size_t>(billboard.sunDepth);
+}
 
 class MakeBillboards : public test::VulkanTest {
   protected:
@@ -31,10 +44,11 @@ class MakeBillboards : public test::VulkanTest {
 TEST_F(MakeBillboards, KeepTheMass) {
     const double extinction = 0.3;
     const dvec3 eye(10.0, 20.0, 200.0);
-    const auto billboards = makeBillboards(cloud, extinction, cameraAt(eye, scene::Projection::perspective));
+    const auto billboards = makeBillboards(cloud, extinction, cameraAt(eye, scene::Projection::perspective),
+                                           numbers(cloud.collectors.size()));
     ASSERT_EQ(billboards.size(), cloud.collectors.size());
     for (const Billboard& b : billboards) {
-        const cloud::Collector& collector = cloud.collectors[b.collector];
+        const cloud::Collector& collector = cloud.collectors[collectorOf(b)];
         const double mass = extinction * static_cast<double>(collector.mass) * cloud.voxelVolume;
         const double sphere = 4.0 / 3.0 * std::numbers::pi * std::pow(static_cast<double>(b.radius), 3);
         ASSERT_NEAR(static_cast<double>(b.extinction) * sphere, mass, 1e-5 * mass);
@@ -48,10 +62,10 @@ TEST_F(MakeBillboards, AreSortedForTheProjection) {
     for (const auto projection :
          {scene::Projection::perspective, scene::Projection::orthographic, scene::Projection::panorama}) {
         const Camera camera = cameraAt({30.0, 30.0, 30.0}, projection);  // inside
-        const auto billboards = makeBillboards(cloud, 1.0, camera);
+        const auto billboards = makeBillboards(cloud, 1.0, camera, numbers(cloud.collectors.size()));
         double last = -1e300;
         for (const Billboard& b : billboards) {
-            const dvec3 centre = cloud.toWorld.point(dvec3(cloud.collectors[b.collector].centre)) - camera.position;
+            const dvec3 centre = cloud.toWorld.point(dvec3(cloud.collectors[collectorOf(b)].centre)) - camera.position;
             const double order =
                 projection == scene::Projection::orthographic ? glm::dot(centre, camera.axes[2]) : glm::length(centre);
             ASSERT_GE(order, last - 1e-9);
@@ -71,11 +85,11 @@ TEST_F(MakeBillboards, TiesAreBrokenByIndex) {
         const dvec3 sign(i & 1U ? 1 : -1, i & 2U ? 1 : -1, i & 4U ? 1 : -1);
         cloud.collectors[i].centre = glm::vec3(eye + distance * sign);
     }
-    const auto billboards = makeBillboards(cloud, 1.0, cameraAt(eye, scene::Projection::perspective));
+    const auto billboards = makeBillboards(cloud, 1.0, cameraAt(eye, scene::Projection::perspective), numbers(600));
     ASSERT_EQ(billboards.size(), 600U);
     for (std::size_t i = 1; i < billboards.size(); ++i) {
         if (i % 200 == 0) continue;  // the next distance
-        ASSERT_LT(billboards[i - 1].collector, billboards[i].collector);
+        ASSERT_LT(collectorOf(billboards[i - 1]), collectorOf(billboards[i]));
     }
 }
 

@@ -25,6 +25,7 @@ namespace spirv {
 #include "spirv/cloud/leaf_statistics.comp.h"
 #include "spirv/cloud/sample.comp.h"
 #include "spirv/draw/billboards.comp.h"
+#include "spirv/draw/collector_sun.comp.h"
 #include "spirv/draw/light_cells.comp.h"
 #include "spirv/draw/sun_depth.comp.h"
 #include "spirv/gpu/shaders/layout.comp.h"
@@ -107,11 +108,12 @@ TEST(SharedLayout, Draw) {
                   turnShare, angleScale, tauMaximum);
     EXPECT_LAYOUT(billboards_comp, FieldParams, worldToVoxel, eyeVoxel, size, cells, cellSize, extinction, voxelLength,
                   radianceScale, voxelToSun, sunOffset);
-    EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, field, firstRow, rows, tilesAcross);
-    EXPECT_LAYOUT(billboards_comp, Billboard, centre, radius, extinction, collector);
+    EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, field, firstRow, rows, tilesAcross, samples);
+    EXPECT_LAYOUT(billboards_comp, Billboard, centre, radius, extinction, sunDepth);
     EXPECT_LAYOUT(billboards_comp, Pixel, radiance, cloud, transmittance, alpha, depth, front);
     EXPECT_PUSH(sun_depth_comp, SunDepthPush, gridToVoxel, originVoxel, inverseSize, grid, step);
-    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge);
+    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, scale);
+    EXPECT_PUSH(collector_sun_comp, CollectorSunPush, voxelToTexture, textureOffset, inverseSize, collectors);
 }
 
 }  // namespace
