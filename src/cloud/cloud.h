@@ -64,6 +64,9 @@ struct PrepareOptions {
 /// empty. Errors: Error where interrupted.
 Cloud prepare(gpu::Context& context, const vdb::Volume& volume, const PrepareOptions& options);
 
+/// What the GPU reads: the majorant of each cell, or where that is 0, −d with d the Chebyshev distance, in cells, to
+/// the nearest cell with a majorant (the sum of the grid's edges where there is none). A walk may cross all cells
+/// nearer than d at once.
 std::vector<float> majorantsAndDistances(const MajorantGrid& grid);
 
 /// Majorants on cells of `edge` blocks, or a single one for the whole volume (edge 0), from those of the blocks.

@@ -54,6 +54,33 @@ float gridMajorant(const MajorantGrid& grid, const dvec3& point) {
     return least;
 }
 
+/// Against a search through all cells; a grid that is empty, full, or one cell thick among them.
+TEST(MajorantDistances, AreThoseOfASearch) {
+    std::mt19937 random(3);
+    for (const auto& [cells, share] : std::vector<std::pair<ivec3, double>>{
+             {{9, 7, 11}, 0.01}, {{9, 7, 11}, 0.2}, {{13, 1, 6}, 0.05}, {{5, 5, 5}, 0.0}, {{4, 3, 2}, 1.0}}) {
+        MajorantGrid grid;
+        grid.cells = cells;
+        std::vector<ivec3> filled;
+        for (int i = 0; i < cells.x * cells.y * cells.z; ++i) {
+            grid.maxima.push_back(std::bernoulli_distribution(share)(random) ? 0.5F : 0.0F);
+            if (grid.maxima.back() > 0.0F)
+                filled.emplace_back(i % cells.x, (i / cells.x) % cells.y, i / (cells.x * cells.y));
+        }
+        const std::vector<float> found = majorantsAndDistances(grid);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const int n = static_cast<int>(i);
+            const ivec3 cell(n % cells.x, (n / cells.x) % cells.y, n / (cells.x * cells.y));
+            int least = cells.x + cells.y + cells.z;
+            for (const ivec3& other : filled) {
+                const ivec3 away = glm::abs(other - cell);
+                least = std::min(least, std::max(away.x, std::max(away.y, away.z)));
+            }
+            ASSERT_EQ(found[i], least == 0 ? 0.5F : static_cast<float>(-least));
+        }
+    }
+}
+
 TEST_F(CloudMajorants, GridIsNeverBelowTheDensity) {
     for (const test::CloudCase& c : test::cloudCases()) {
         const test::Field field(c.volume);
