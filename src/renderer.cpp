@@ -312,6 +312,12 @@ Statistics Renderer::statistics() const {
         result.escaped = c.escaped;
         result.lost = c.lost;
         result.saturated = c.saturated;
+        if (c.lost > 0)
+            result.warnings.push_back(std::to_string(c.lost) + " of " + std::to_string(c.emitted) +
+                                      " photons scattered too often and were given up: their light is missing");
+        if (c.saturated > 0)
+            result.warnings.push_back(std::to_string(c.saturated) +
+                                      " coefficients met the limit of their integers: the picture is too dark there");
     }
     result.validationMessages = state_->context.validationMessages();
     return result;
