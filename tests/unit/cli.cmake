@@ -1,6 +1,6 @@
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_executable(make_vdb_fixtures ${CMAKE_CURRENT_LIST_DIR}/../support/make_vdb_fixtures.cpp)
-target_compile_options(make_vdb_fixtures PRIVATE $<$<CONFIG:Release>:-O1>)
+target_compile_options(make_vdb_fixtures PRIVATE $<$<CONFIG:Release>:-O0>)
 target_link_libraries(make_vdb_fixtures PRIVATE lumulus_options OpenVDB::openvdb)
 foreach(class Usage Scene Volumes Places Rendering)
   add_test(NAME cli.${class} COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/../cli/cli_test.py
