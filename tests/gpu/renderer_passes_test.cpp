@@ -36,6 +36,15 @@ class EachMode : public testing::TestWithParam<scene::DrawMode> {
   protected:
     scene::Scene scene = smallScene();
     void SetUp() override { scene.draw.mode = GetParam(); }
+
+    /// No pass but the drawing, no photon, and nothing in the layer.
+    void expectOnlyDrawn(const std::string& blackLayer) const {
+        const Frame frame = test::render(scene);
+        EXPECT_THAT(frame.passes(), ElementsAre(drawPass(GetParam())));
+        EXPECT_EQ(frame.statistics.photons, 0U);
+        EXPECT_THAT(frame.image.layers.at(blackLayer), testing::Each(0.0F));
+        expectFinite(frame.image);
+    }
 };
 INSTANTIATE_TEST_SUITE_P(Passes, EachMode, testing::Values(scene::DrawMode::march, scene::DrawMode::billboards),
                          [](const auto& mode) { return drawPass(mode.param); });
@@ -66,20 +75,12 @@ TEST_P(EachMode, DarkSunHasNoPassesOfItsOwn) {
 TEST_P(EachMode, WithoutLightThereIsOnlyTheDrawing) {
     scene.sun.irradiance = dvec3(0.0);
     scene.sky.radiance = dvec3(0.0);
-    const Frame frame = test::render(scene);
-    EXPECT_THAT(frame.passes(), ElementsAre(drawPass(GetParam())));
-    EXPECT_EQ(frame.statistics.photons, 0U);
-    EXPECT_THAT(frame.image.layers.at("R"), testing::Each(0.0F));
-    expectFinite(frame.image);
+    expectOnlyDrawn("R");
 }
 
 TEST_P(EachMode, BlackCloudIsOnlyDrawn) {
     scene.clouds[0].albedo = dvec3(0.0);
-    const Frame frame = test::render(scene);
-    EXPECT_THAT(frame.passes(), ElementsAre(drawPass(GetParam())));
-    EXPECT_EQ(frame.statistics.photons, 0U);
-    EXPECT_THAT(frame.image.layers.at("cloud.R"), testing::Each(0.0F));
-    expectFinite(frame.image);
+    expectOnlyDrawn("cloud.R");
 }
 
 /// A black sky: all photons are the sun's; without scattering twice, none is stored.

@@ -14,7 +14,8 @@ namespace lumulus::test {
 class TemporaryFolder {
   public:
     TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "lumulus-test-XXXXXX").string();
+        // mkdtemp puts letters of its own in the place of six X
+        std::string name = (std::filesystem::temp_directory_path() / ("lumulus-test-" + std::string(6, 'X'))).string();
         if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a temporary folder");
         path_ = name;
     }
