@@ -28,6 +28,12 @@ struct Collector {
     float majorant = 0.0F;   ///< of the normalised density in the leaf
     float occupied = 0.0F;   ///< fraction of the leaf's voxels that have density
     shared::LeafBox box;
+
+    /// Voxels of the leaf that have density.
+    double occupiedVoxels() const {
+        const glm::dvec3 extent(box.upper - box.lower);
+        return static_cast<double>(occupied) * extent.x * extent.y * extent.z;
+    }
 };
 
 /// Seconds of each step of the preparation, for --stats and benchmarks.

@@ -19,9 +19,7 @@ constexpr double overlap = 1.1;
 
 /// Voxels of the leaf that hold density; no fewer than its mass fills at the greatest density, 1.
 double filledVoxels(const cloud::Collector& collector) {
-    const glm::dvec3 extent = glm::dvec3(collector.box.upper - collector.box.lower);
-    const double occupied = static_cast<double>(collector.occupied) * extent.x * extent.y * extent.z;
-    return std::max(occupied, static_cast<double>(collector.mass));
+    return std::max(collector.occupiedVoxels(), static_cast<double>(collector.mass));
 }
 
 }  // namespace

@@ -14,9 +14,10 @@ namespace spirv {
 #include "spirv/draw/light_smooth.comp.h"
 }  // namespace spirv
 
-/// Cells along the longest side with 200,000 photons, and their number with the cube root of that of the photons: as
-/// fine as the light changes near the surface, as coarse as the noise asks (docs/error-time.md has the figures).
-constexpr double cellsAlong = 48.0, photonsThen = 2e5;
+/// Photons of the map for each cell with density: as fine as the light changes near the surface, as coarse as the noise
+/// asks (docs/error-time.md has the figures). Where there are few photons noise is the lesser evil, so that there are
+/// this many cells along the longest side at least.
+constexpr double photonsInCell = 24.0, fewestAlong = 32.0;
 /// 64 MiB each for the cells and for the smoothed field.
 constexpr std::uint64_t maxCells = 1ULL << 22U;
 
@@ -25,12 +26,20 @@ std::uint64_t cellCount(const shared::LightFieldPush& push) {
            static_cast<std::uint64_t>(push.grid.z);
 }
 
-shared::LightFieldPush gridFor(const glm::ivec3& size, std::uint64_t photons) {
+/// Voxels with density.
+double occupiedVoxels(const cloud::Cloud& cloud) {
+    double voxels = 0.0;
+    for (const cloud::Collector& collector : cloud.collectors) voxels += collector.occupiedVoxels();
+    return voxels;
+}
+
+shared::LightFieldPush gridFor(const cloud::Cloud& cloud, std::uint64_t photons) {
     shared::LightFieldPush push{};
+    const glm::ivec3 size = cloud.size;
     const int longest = std::max(size.x, std::max(size.y, size.z));
-    const double along = cellsAlong * std::cbrt(static_cast<double>(photons) / photonsThen);
+    const double wanted = std::cbrt(photonsInCell * occupiedVoxels(cloud) / static_cast<double>(photons));
     push.size = size;
-    push.edge = std::max(1, static_cast<int>(std::lround(longest / along)));
+    push.edge = std::max(1, static_cast<int>(std::lround(std::min(wanted, longest / fewestAlong))));
     push.grid = (size + push.edge - 1) / push.edge;
     while (cellCount(push) > maxCells) {
         ++push.edge;
@@ -44,7 +53,7 @@ shared::LightFieldPush gridFor(const glm::ivec3& size, std::uint64_t photons) {
 
 LightField::LightField(gpu::Context& context, const cloud::Cloud& cloud, std::uint64_t photons)
     : cloud_(cloud),
-      push_(gridFor(cloud.size, photons)),
+      push_(gridFor(cloud, photons)),
       cellsProgram_(context, "light_cells", spirv::light_cells_comp),
       smoothProgram_(context, "light_smooth", spirv::light_smooth_comp),
       cells_(context, "light cells", push_.grid, VK_FORMAT_R32G32B32A32_SFLOAT),
