@@ -67,6 +67,7 @@ struct Renderer::State {
     // What follows exists only where the scene needs it.
     photon::Medium medium;
     std::optional<cloud::Cloud> cloud;
+    cloud::CellGrid lightGrid;
     std::optional<photon::PhotonMap> photons;
     std::optional<draw::SunDepth> sunDepth;
     std::optional<draw::CollectorSun> collectorSun;
@@ -119,12 +120,14 @@ void Renderer::State::preparePhotons() {
     if (each > 0xF0000000ULL)
         throw InputError("a generation would hold " + std::to_string(each) + " photons, more than 4026531840",
                          "photon_map.photons", "ask for more generations or fewer photons");
+    lightGrid = draw::lightGrid(*cloud, static_cast<std::uint64_t>(wanted.photons));
     photon::Options options;
     options.photonsPerGeneration = each;
     options.generations = wanted.generations;
     options.firstGeneration = static_cast<std::uint32_t>(wanted.firstGeneration);
     options.bands = wanted.bands;
     options.seed = wanted.seed;
+    options.deposits = lightGrid;
     options.memoryBudget = static_cast<std::uint64_t>(std::ldexp(wanted.memoryBudget, 20));
     photons.emplace(context, *cloud, medium, options);
 }
@@ -175,7 +178,7 @@ void Renderer::State::prepareDrawing() {
     const draw::DrawFeatures features{!medium.tables.oneTurnH.empty(), scatters() && hasSun(), photons.has_value(),
                                       medium.albedo == glm::dvec3(medium.albedo.x)};
     if (features.sun) sunDepth.emplace(context, *cloud);
-    if (features.photons) lightField.emplace(context, *cloud, static_cast<std::uint64_t>(scene.photonMap.photons));
+    if (features.photons) lightField.emplace(context, *cloud, lightGrid);
     phase.emplace(context, medium.tables);
     if (scene.draw.mode == scene::DrawMode::billboards) {
         billboards.emplace(context, *cloud, features);
@@ -227,7 +230,9 @@ void Renderer::State::recordLight() {
     if (photons) {
         photons->reconstruct(commands, eyeVoxel());
         commands.barrier("collector radiance");
-        lightField->record(commands, photons->radiance());
+        lightField->record(
+            commands, photons->radiance(), photons->sum(),
+            {photons->depositBase(), photons->depositUnit(), photons->photonPower(), photons->massScale()});
     }
 }
 

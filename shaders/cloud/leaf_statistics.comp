@@ -14,16 +14,6 @@ layout(push_constant, scalar) uniform Push { LeafPush push; };
 shared vec4 sums[32];    // mass, moment
 shared vec2 extremes[32];  // majorant, occupied voxels
 
-/// Exact integral of the trilinear field over one voxel's cube: in each axis (⅛, ¾, ⅛), which two taps at ±¼ give.
-vec4 voxelMass(ivec3 voxel, vec3 inverseSize) {
-    vec4 sum = vec4(0.0);
-    for (int corner = 0; corner < 8; ++corner) {
-        const vec3 offset = 0.5 * vec3(corner & 1, (corner >> 1) & 1, corner >> 2) - 0.25;
-        sum += vec4(1.0, 0.5 + offset) * densityAt(density, vec3(voxel) + 0.5 + offset, inverseSize);
-    }
-    return 0.125 * sum;
-}
-
 void main() {
     const uint leaf = linearGroup();
     if (leaf >= push.leaves) return;
@@ -49,7 +39,7 @@ void main() {
     if (majorant > 0.0) {
         for (uint i = lane; i < voxels; i += 32u) {
             const ivec3 local = ivec3(i % extent.x, (i / extent.x) % extent.y, i / (extent.x * extent.y));
-            const vec4 mass = voxelMass(lower + local, inverseSize);
+            const vec4 mass = voxelMass(density, lower + local, inverseSize);
             sum += vec4(mass.x, mass.yzw + vec3(local) * mass.x);
             occupied += texelFetch(density, lower + local, 0).r > 0.0 ? 1.0 : 0.0;
         }

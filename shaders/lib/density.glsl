@@ -10,4 +10,15 @@ float densityOf(sampler3D density, ivec3 voxel, ivec3 size) {
     return inside ? texelFetch(density, voxel, 0).r : 0.0;
 }
 
+/// Exact integral of the trilinear field over one voxel's cube: in each axis (⅛, ¾, ⅛), which two taps at ±¼ give;
+/// after it the moment about the voxel's lower corner.
+vec4 voxelMass(sampler3D density, ivec3 voxel, vec3 inverseSize) {
+    vec4 sum = vec4(0.0);
+    for (int corner = 0; corner < 8; ++corner) {
+        const vec3 offset = 0.5 * vec3(corner & 1, (corner >> 1) & 1, corner >> 2) - 0.25;
+        sum += vec4(1.0, 0.5 + offset) * densityAt(density, vec3(voxel) + 0.5 + offset, inverseSize);
+    }
+    return 0.125 * sum;
+}
+
 #endif

@@ -5,6 +5,7 @@
 #include "shared/photon.h"
 #include "shared/sh.h"
 #include "lib/linear.glsl"
+#include "lib/luminance.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const int BANDS = 5;
@@ -12,7 +13,7 @@ layout(constant_id = 0) const int BANDS = 5;
 layout(binding = 0, scalar) readonly buffer Sum { int64_t sum[]; };
 layout(binding = 1, scalar) readonly buffer Moments { float moments[]; };      // of the phase function, by band
 layout(binding = 2, scalar) readonly buffer Collectors { vec4 collectors[]; };  // centre, mass [m²]
-layout(binding = 3, scalar) writeonly buffer Radiance { vec3 radiance[]; };
+layout(binding = 3, scalar) writeonly buffer Radiance { vec4 radiance[]; };  // and fluence (luminance)
 layout(push_constant, scalar) uniform Push { ReconstructPush push; };
 
 void main() {
@@ -32,5 +33,6 @@ void main() {
             const vec3 coefficient = vec3(sum[base + uint(i)], sum[base + uint(COUNT + i)], sum[base + uint(2 * COUNT + i)]);
             total += (moments[l] * y[i]) * coefficient;
         }
-    radiance[collector] = total * (push.scale / place.w);
+    const vec3 mean = vec3(sum[base], sum[base + uint(COUNT)], sum[base + uint(2 * COUNT)]);
+    radiance[collector] = vec4(total, luminance(mean) / y[0]) * (push.scale / place.w);
 }

@@ -9,6 +9,7 @@
 #include "shared/phase_table.h"
 #include "lib/density.glsl"
 #include "lib/emission.glsl"
+#include "lib/luminance.glsl"
 #include "lib/packing.glsl"
 #include "lib/tracking.glsl"
 
@@ -28,6 +29,7 @@ layout(binding = 6, scalar) writeonly buffer Records { PhotonRecord records[]; }
 layout(binding = 7, scalar) buffer RecordCounts { uint recordCounts[]; };        // of each invocation
 layout(binding = 8, scalar) buffer CollectorCounts { uint collectorCounts[]; };  // of each collector
 layout(binding = 9, scalar) buffer Counters { TraceCounters counters; };
+layout(binding = 10, scalar) buffer Deposits { int64_t deposits[]; };
 
 /// Cells that a photon may cross before the lanes that have met something go on.
 const int CROSSINGS = 16;
@@ -85,8 +87,14 @@ void record(TraceState state, vec3 voxel, uint lane, inout uint count) {
     const uint collector = texelFetch(collectorIndex, ivec3(min(voxel, params.size - 0.5)), 0).r;
     if (collector >= params.collectors) return;
     const vec3 light = state.photon < params.sunPhotons ? params.sunPower : params.skyPower;
+    const vec3 power = light * state.weight;
     records[count * params.invocations + lane] =
-        PhotonRecord(collector, packDirection(state.direction), packPower(light * state.weight));
+        PhotonRecord(collector, packDirection(state.direction), packPower(power));
+    if (params.depositEdge > 0) {
+        const ivec3 cell = min(ivec3(voxel) / params.depositEdge, params.depositCells - 1);
+        const uint index = (cell.z * params.depositCells.y + cell.y) * params.depositCells.x + cell.x;
+        atomicAdd(deposits[params.depositBase + index], int64_t(roundEven(COEFFICIENT_SCALE * luminance(power))));
+    }
     atomicAdd(collectorCounts[collector], 1u);
     ++count;
 }

@@ -102,6 +102,10 @@ struct LightFieldPush {
     ivec3 grid;  // cells
     int edge;    // of a cell, voxels
     vec3 scale;  // cells → texture coordinates
+    uint depositBase;
+    float depositScale;  // counts → W
+    float massScale;     // ∫ normalised density [voxels] → ∫ σt' dV [m²]
+    float prior;         // W of deposits that are taken for granted in each cell, as the collectors have them
 };
 
 #ifdef __cplusplus
@@ -114,7 +118,7 @@ static_assert(sizeof(Billboard) == 24 && offsetof(Billboard, sunDepth) == 20);
 static_assert(sizeof(Pixel) == 48 && offsetof(Pixel, front) == 44);
 static_assert(sizeof(SunDepthPush) == 76 && offsetof(SunDepthPush, step) == 72);
 static_assert(sizeof(CollectorSunPush) == 64 && offsetof(CollectorSunPush, collectors) == 60);
-static_assert(sizeof(LightFieldPush) == 40 && offsetof(LightFieldPush, scale) == 28);
+static_assert(sizeof(LightFieldPush) == 56 && offsetof(LightFieldPush, prior) == 52);
 #endif
 
 SHARED_END

@@ -40,6 +40,9 @@ struct TraceParams {
     uint recordCapacity;  // of one invocation
     uint stepLimit;       // of one dispatch
     uint collisionLimit;  // of one photon
+    uint depositBase;     // where the cells follow the collectors' coefficients
+    int depositEdge;      // of a cell, voxels; 0: none
+    ivec3 depositCells;
 };
 
 /// A photon between two dispatches.
@@ -100,7 +103,7 @@ struct ReconstructPush {
 
 #ifdef __cplusplus
 // Scalar layout, as SPIR-V has it; tests/unit/shared_layout_test.cpp compares every member.
-static_assert(sizeof(TraceParams) == 224 && offsetof(TraceParams, collisionLimit) == 220);
+static_assert(sizeof(TraceParams) == 244 && offsetof(TraceParams, depositCells) == 232);
 static_assert(sizeof(TraceState) == 72 && offsetof(TraceState, alive) == 68);
 static_assert(sizeof(PhotonRecord) == 16 && offsetof(PhotonRecord, power) == 8);
 static_assert(sizeof(TraceCounters) == 80 && offsetof(TraceCounters, unused) == 76);

@@ -21,6 +21,17 @@ struct MajorantGrid {
     double nullCollisions = 0.0;  ///< expected for each real one, for light that fills the box evenly
 };
 
+/// Cubic cells over the voxels, x fastest.
+struct CellGrid {
+    int edge = 0;  ///< of a cell, voxels; 0: no grid
+    glm::ivec3 cells{0};
+
+    std::uint64_t count() const {
+        return static_cast<std::uint64_t>(cells.x) * static_cast<std::uint64_t>(cells.y) *
+               static_cast<std::uint64_t>(cells.z);
+    }
+};
+
 /// A virtual photon collector (VPC) and the billboard that stands for its leaf.
 struct Collector {
     glm::vec3 centre{0.0F};  ///< of mass, voxel coordinates

@@ -11,6 +11,7 @@ namespace {
 
 namespace spirv {
 #include "spirv/draw/light_cells.comp.h"
+#include "spirv/draw/light_mass.comp.h"
 #include "spirv/draw/light_smooth.comp.h"
 }  // namespace spirv
 
@@ -18,13 +19,11 @@ namespace spirv {
 /// asks (docs/error-time.md has the figures). Where there are few photons noise is the lesser evil, so that there are
 /// this many cells along the longest side at least.
 constexpr double photonsInCell = 24.0, fewestAlong = 32.0;
+/// Photons that a cell is taken to have met, as many as its collectors have there on average, beside those that were
+/// counted: what holds the noise of cells that few meet (docs/error-time.md).
+constexpr double priorPhotons = 5.0;
 /// 64 MiB each for the cells and for the smoothed field.
 constexpr std::uint64_t maxCells = 1ULL << 22U;
-
-std::uint64_t cellCount(const shared::LightFieldPush& push) {
-    return static_cast<std::uint64_t>(push.grid.x) * static_cast<std::uint64_t>(push.grid.y) *
-           static_cast<std::uint64_t>(push.grid.z);
-}
 
 /// Voxels with density.
 double occupiedVoxels(const cloud::Cloud& cloud) {
@@ -33,47 +32,71 @@ double occupiedVoxels(const cloud::Cloud& cloud) {
     return voxels;
 }
 
-shared::LightFieldPush gridFor(const cloud::Cloud& cloud, std::uint64_t photons) {
-    shared::LightFieldPush push{};
-    const glm::ivec3 size = cloud.size;
-    const int longest = std::max(size.x, std::max(size.y, size.z));
+}  // namespace
+
+cloud::CellGrid lightGrid(const cloud::Cloud& cloud, std::uint64_t photons) {
+    const int longest = std::max(cloud.size.x, std::max(cloud.size.y, cloud.size.z));
     const double wanted = std::cbrt(photonsInCell * occupiedVoxels(cloud) / static_cast<double>(photons));
-    push.size = size;
-    push.edge = std::max(1, static_cast<int>(std::lround(std::min(wanted, longest / fewestAlong))));
-    push.grid = (size + push.edge - 1) / push.edge;
-    while (cellCount(push) > maxCells) {
-        ++push.edge;
-        push.grid = (size + push.edge - 1) / push.edge;
+    cloud::CellGrid grid;
+    grid.edge = std::max(1, static_cast<int>(std::lround(std::min(wanted, longest / fewestAlong))));
+    grid.cells = (cloud.size + grid.edge - 1) / grid.edge;
+    while (grid.count() > maxCells) {
+        ++grid.edge;
+        grid.cells = (cloud.size + grid.edge - 1) / grid.edge;
     }
-    push.scale = 1.0F / glm::vec3(push.grid);
+    return grid;
+}
+
+LightField::LightField(gpu::Context& context, const cloud::Cloud& cloud, const cloud::CellGrid& grid)
+    : cloud_(cloud),
+      grid_(grid),
+      massProgram_(context, "light_mass", spirv::light_mass_comp),
+      cellsProgram_(context, "light_cells", spirv::light_cells_comp),
+      smoothProgram_(context, "light_smooth", spirv::light_smooth_comp),
+      mass_(context, "light cell mass", grid_.cells, VK_FORMAT_R32_SFLOAT),
+      cells_(context, "light cells", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
+      image_(context, "light field", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT) {
+    gpu::Commands commands(context);
+    commands.begin();
+    commands.dispatch(massProgram_, {{"density", cloud_.density, gpu::Sampler::linear}, {"cellMass", mass_}}, push({}),
+                      gpu::linearGroups(grid_.count(), 64));
+    commands.submit();
+    commands.wait();
+}
+
+shared::LightFieldPush LightField::push(const Deposits& deposits) const {
+    shared::LightFieldPush push{};
+    push.size = cloud_.size;
+    push.grid = grid_.cells;
+    push.edge = grid_.edge;
+    push.scale = 1.0F / glm::vec3(grid_.cells);
+    push.depositBase = deposits.base;
+    push.depositScale = static_cast<float>(deposits.unit);
+    push.massScale = static_cast<float>(deposits.massScale);
+    push.prior = static_cast<float>(priorPhotons * deposits.photonPower);
     return push;
 }
 
-}  // namespace
-
-LightField::LightField(gpu::Context& context, const cloud::Cloud& cloud, std::uint64_t photons)
-    : cloud_(cloud),
-      push_(gridFor(cloud, photons)),
-      cellsProgram_(context, "light_cells", spirv::light_cells_comp),
-      smoothProgram_(context, "light_smooth", spirv::light_smooth_comp),
-      cells_(context, "light cells", push_.grid, VK_FORMAT_R32G32B32A32_SFLOAT),
-      image_(context, "light field", push_.grid, VK_FORMAT_R32G32B32A32_SFLOAT) {}
-
 glm::vec3 LightField::scale() const {
-    return 1.0F / glm::vec3(push_.grid * push_.edge);
+    return 1.0F / glm::vec3(grid_.cells * grid_.edge);
 }
 
-void LightField::record(gpu::Commands& commands, const gpu::Buffer& radiance) const {
+void LightField::record(gpu::Commands& commands, const gpu::Buffer& radiance, const gpu::Buffer& sum,
+                        const Deposits& deposits) const {
+    const shared::LightFieldPush values = push(deposits);
+    const glm::uvec3 groups = gpu::linearGroups(grid_.count(), 64);
     commands.pass("light field");
     commands.dispatch(cellsProgram_,
                       {{"density", cloud_.density, gpu::Sampler::nearest},
                        {"collectorIndex", cloud_.collectorIndex, gpu::Sampler::nearest},
                        {"Radiance", radiance},
-                       {"cells", cells_}},
-                      push_, gpu::linearGroups(cellCount(push_), 64));
+                       {"cells", cells_},
+                       {"cellMass", mass_, gpu::Sampler::nearest},
+                       {"Deposits", sum}},
+                      values, groups);
     commands.barrier("light cells");
-    commands.dispatch(smoothProgram_, {{"cells", cells_, gpu::Sampler::linear}, {"lightField", image_}}, push_,
-                      gpu::linearGroups(cellCount(push_), 64));
+    commands.dispatch(smoothProgram_, {{"cells", cells_, gpu::Sampler::linear}, {"lightField", image_}}, values,
+                      groups);
 }
 
 }  // namespace lumulus::draw

@@ -5,13 +5,9 @@
 
 namespace lumulus::photon {
 
-namespace {
-
 double luminance(const glm::dvec3& rgb) {
     return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
 }
-
-}  // namespace
 
 std::uint64_t Emission::sunPhotons(std::uint64_t photons, double u) const {
     return std::min(photons, static_cast<std::uint64_t>(std::floor(static_cast<double>(photons) * sunShare + u)));

@@ -7,6 +7,9 @@
 
 namespace lumulus::photon {
 
+/// Rec. 709.
+double luminance(const glm::dvec3& rgb);
+
 /// How a generation is shared out between the lights.
 struct Emission {
     double sunShare = 0.0;    ///< of the photons, by luminous power

@@ -122,6 +122,9 @@ shared::TraceParams GenerationTracer::traceParams(const Emission& emission, cons
     p.recordCapacity = recordCapacity_;
     p.stepLimit = stepLimit;
     p.collisionLimit = collisionLimit;
+    p.depositBase = collectors_ * 3U * static_cast<std::uint32_t>(options_.bands * options_.bands);
+    p.depositEdge = options_.deposits.edge;
+    p.depositCells = options_.deposits.cells;
     return p;
 }
 
@@ -159,7 +162,8 @@ void GenerationTracer::round(const gpu::Buffer& coefficients) {
                         {"Records", records_},
                         {"RecordCounts", recordCounts_},
                         {"CollectorCounts", collectorCounts_},
-                        {"Counters", counters_}},
+                        {"Counters", counters_},
+                        {"Deposits", coefficients}},
                        {}, linearGroups(invocations_, 64));
     commands_.barrier("records");
     recordSort(push);

@@ -30,9 +30,9 @@ class GenerationTracer {
 
     const glm::dmat3& faceArea() const { return faceArea_; }
 
-    /// Adds the light of generation `number` to `coefficients` ([collector][RGB][bands²] int64), in counts of
-    /// 2^unitExponent W / COEFFICIENT_SCALE, and what happened to `counters`. `unsettledRecords` counts the records
-    /// that `coefficients` hold. Errors: Error where interrupted, or where the sums might wrap.
+    /// Adds the light of generation `number` to `coefficients` ([collector][RGB][bands²], then the deposits, int64), in
+    /// counts of 2^unitExponent W / COEFFICIENT_SCALE, and what happened to `counters`. `unsettledRecords` counts the
+    /// records that `coefficients` hold. Errors: Error where interrupted, or where the sums might wrap.
     void trace(const Emission& emission, const scene::Sun& sun, int unitExponent, std::uint32_t number,
                const gpu::Buffer& coefficients, Counters& counters, std::uint64_t& unsettledRecords, PassLog& log);
 

@@ -22,7 +22,8 @@ std::uint64_t parts(const MapSize& size) {
 }  // namespace
 
 std::uint64_t generationBytes(const MapSize& size) {
-    return size.collectors * 3 * static_cast<std::uint64_t>(size.bands * size.bands) * sizeof(std::int64_t);
+    const std::uint64_t coefficients = size.collectors * 3 * static_cast<std::uint64_t>(size.bands * size.bands);
+    return (coefficients + size.deposits) * sizeof(std::int64_t);
 }
 
 std::uint64_t mapBytes(const MapSize& size) {

@@ -10,9 +10,10 @@ struct MapSize {
     int bands = 5;
     int generations = 20;  ///< slots of the ring
     bool keepRing = false;
+    std::uint64_t deposits = 0;  ///< cells
 };
 
-/// Bytes of the coefficients of one generation: [collector][RGB][bands²] int64.
+/// Bytes of one generation: [collector][RGB][bands²] and [deposit], int64.
 std::uint64_t generationBytes(const MapSize& size);
 
 /// Bytes of all coefficients: a generation in the making, the sum, and the slots of the ring where it is kept.

@@ -43,7 +43,7 @@ double maxChannel(const glm::dvec3& v) {
 
 /// Of all collectors together, where there is room for them.
 std::uint32_t coefficientsOf(const gpu::Context& context, std::uint32_t collectors, const Options& options) {
-    const MapSize size{collectors, options.bands, options.generations, options.keepRing};
+    const MapSize size{collectors, options.bands, options.generations, options.keepRing, options.deposits.count()};
     requireMapFits(size, options.memoryBudget, context.limits().maxStorageBufferRange);
     return static_cast<std::uint32_t>(generationBytes(size) / sizeof(std::int64_t));
 }
@@ -74,6 +74,7 @@ struct PhotonMap::State {
     bool hasUnit = false;
     std::optional<int> unsettled;  // unit exponent of what `generation` holds and the sum does not
     std::uint64_t unsettledRecords = 0;
+    double flux = 0.0;  // luminance of the newest generation's light [W]
     Counters counters;
     PassLog log;
 
@@ -97,7 +98,7 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Cloud& preparedCl
       generation(context, "generation", coefficients * sizeof(std::int64_t), Memory::device),
       sum(context, "ring sum", coefficients * sizeof(std::int64_t), Memory::device),
       saturated(context, "saturated", sizeof(std::uint32_t), Memory::host),
-      radiance(context, "collector radiance", collectors * sizeof(glm::vec3), Memory::device),
+      radiance(context, "collector radiance", collectors * sizeof(glm::vec4), Memory::device),
       commands(context) {
     if (options.keepRing)
         for (int i = 0; i < options.generations; ++i)
@@ -160,6 +161,7 @@ void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
     State& s = *state_;
     const Emission emission = makeEmission(sun, sky, s.tracer.faceArea());
     int unitExponent = 0;
+    s.flux = luminance(emission.sunFlux + emission.skyFlux);
     if (!emission.dark()) {
         const double most = std::max(maxChannel(emission.sunPower(s.options.photonsPerGeneration)),
                                      maxChannel(emission.skyPower(s.options.photonsPerGeneration)));
@@ -202,6 +204,19 @@ const gpu::Buffer& PhotonMap::radiance() const {
 int PhotonMap::generationsInRing() const {
     return std::min(state_->traced, state_->options.generations);
 }
+const gpu::Buffer& PhotonMap::sum() const {
+    return state_->sum;
+}
+std::uint32_t PhotonMap::depositBase() const {
+    return state_->coefficients - static_cast<std::uint32_t>(state_->options.deposits.count());
+}
+double PhotonMap::depositUnit() const {
+    return unit() / std::max(1, generationsInRing());
+}
+double PhotonMap::photonPower() const {
+    const double photons = static_cast<double>(state_->options.photonsPerGeneration) * std::max(1, generationsInRing());
+    return state_->flux / photons;
+}
 const Counters& PhotonMap::counters() const {
     return state_->counters;
 }
@@ -228,13 +243,15 @@ std::vector<std::int64_t> PhotonMap::downloadSlot(int slot) const {
     return values;
 }
 
+double PhotonMap::massScale() const {
+    const Medium& medium = state_->medium;
+    return medium.extinction * (1.0 - static_cast<double>(medium.tables.forwardFraction)) * state_->cloud.voxelVolume;
+}
+
 std::vector<double> PhotonMap::masses() const {
-    const State& s = *state_;
-    const double factor =
-        s.medium.extinction * (1.0 - static_cast<double>(s.medium.tables.forwardFraction)) * s.cloud.voxelVolume;
     std::vector<double> result;
-    for (const cloud::Collector& collector : s.cloud.collectors)
-        result.push_back(static_cast<double>(collector.mass) * factor);
+    for (const cloud::Collector& collector : state_->cloud.collectors)
+        result.push_back(static_cast<double>(collector.mass) * massScale());
     return result;
 }
 

@@ -30,6 +30,8 @@ struct Options {
     /// Whether generations beyond the p-th will replace the oldest. A picture that stops at p needs no slots: they are
     /// the bulk of the memory.
     bool keepRing = false;
+    /// Cells in which the luminance that turns is counted, whatever its direction: finer than collectors can be.
+    cloud::CellGrid deposits;
     std::uint64_t memoryBudget = std::uint64_t{1} << 30U;  ///< bytes for all coefficients
 };
 
@@ -38,8 +40,8 @@ struct Counters {
     std::uint64_t emitted = 0, events = 0, nulls = 0, absorbed = 0, escaped = 0, lost = 0, records = 0, saturated = 0;
 };
 
-/// The photon map: a ring of generations of spherical-harmonic coefficients, [collector][RGB][bands²] int64 each, and
-/// their exact sum.
+/// The photon map: a ring of generations, each [collector][RGB][bands²] int64 of spherical-harmonic coefficients and
+/// then the deposits of the cells, int64, and their exact sum.
 class PhotonMap {
   public:
     /// `cloud` must outlive the map. Errors: InputError where the coefficients do not fit into the budget, or those of
@@ -53,9 +55,17 @@ class PhotonMap {
     /// Adds what has been traced to the sum; so do reconstruct() and downloadSum().
     void settle();
 
-    /// Radiance of every collector towards the eye, as vec3 in `radiance()`: recorded into `commands`.
+    /// Radiance of every collector towards the eye, and the luminance of its fluence [W·m⁻²], as vec4 in `radiance()`:
+    /// recorded into `commands`.
     void reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel);
     const gpu::Buffer& radiance() const;
+
+    /// The sum of the generations, at whose index `depositBase()` the deposits begin: in `depositUnit()` each.
+    const gpu::Buffer& sum() const;
+    std::uint32_t depositBase() const;
+    double depositUnit() const;  ///< W, as the mean of the generations in the ring
+    /// Luminance of a photon's power, as the mean of the generations in the ring [W].
+    double photonPower() const;
 
     int generationsInRing() const;
     const Counters& counters() const;
@@ -71,6 +81,8 @@ class PhotonMap {
     double unit() const;
     /// ∫ σt' dV of each collector [m²], by which its coefficients are divided.
     std::vector<double> masses() const;
+    /// From ∫ normalised density dV [voxels] to ∫ σt' dV [m²].
+    double massScale() const;
 
   private:
     struct State;

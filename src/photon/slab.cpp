@@ -138,7 +138,8 @@ class Layer {
                             {"Records", records_},
                             {"RecordCounts", recordCounts_},
                             {"CollectorCounts", collectorCounts_},
-                            {"Counters", counters_}},
+                            {"Counters", counters_},
+                            {"Deposits", counters_}},
                            {}, gpu::linearGroups(lanes, 64));
         commands_.submit();
         commands_.wait();

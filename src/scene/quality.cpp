@@ -16,9 +16,9 @@ void applyQuality(Scene& scene, Quality quality) {
             map.bands = 4;
             break;
         case Quality::final:
-            map.photons = 8000000;
+            map.photons = 16000000;
             map.generations = 40;
-            map.bands = 6;
+            map.bands = 4;
             break;
     }
 }

@@ -96,8 +96,8 @@ struct PhotonMap {
     std::int64_t photons = 2000000;  ///< in the whole ring
     int generations = 20;
     std::int64_t firstGeneration = 0;
-    int bands = 5;
-    double forwardCut = 12.0;  ///< degrees; 0 = off
+    int bands = 4;
+    double forwardCut = 15.0;  ///< degrees; 0 = off
     Majorant majorant = Majorant::automatic;
     double memoryBudget = 1024.0;  ///< MiB for the light that collectors hold
     std::uint64_t seed = 1;

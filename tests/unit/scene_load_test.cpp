@@ -256,7 +256,7 @@ TEST(Quality, PresetsStandBelowTheFile) {
     EXPECT_EQ(map("", Quality::draft).photons, 200000);
     EXPECT_EQ(map("", Quality::draft).bands, 3);
     EXPECT_EQ(map("", Quality::interactive).generations, 20);
-    EXPECT_EQ(map("", Quality::final).photons, 8000000);
+    EXPECT_EQ(map("", Quality::final).photons, 16000000);
     const PhotonMap mixed = map("[photon_map]\nbands = 7", Quality::draft, {"photon_map.photons=5"});
     EXPECT_EQ(mixed.bands, 7);
     EXPECT_EQ(mixed.photons, 5);

@@ -91,7 +91,7 @@ TEST(SharedLayout, Photon) {
     EXPECT_LAYOUT(trace_comp, TraceParams, worldToVoxel, size, cells, cellSize, extinction, turnShare, albedo,
                   straightWeight, turnFraction, asymmetry, sunDirection, sunCone, faceArea, sunPower, skyPower,
                   sunPhotons, photons, generation, stream, collectors, invocations, recordCapacity, stepLimit,
-                  collisionLimit);
+                  collisionLimit, depositBase, depositEdge, depositCells);
     EXPECT_LAYOUT(trace_comp, TraceState, cell, offset, direction, weight, depth, photon, draws, collisions, turns,
                   alive);
     EXPECT_LAYOUT(trace_comp, PhotonRecord, collector, direction, power);
@@ -112,7 +112,7 @@ TEST(SharedLayout, Draw) {
     EXPECT_LAYOUT(billboards_comp, Billboard, centre, radius, extinction, sunDepth);
     EXPECT_LAYOUT(billboards_comp, Pixel, radiance, cloud, transmittance, alpha, depth, front);
     EXPECT_PUSH(sun_depth_comp, SunDepthPush, gridToVoxel, originVoxel, inverseSize, grid, step);
-    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, scale);
+    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, scale, depositBase, depositScale, massScale, prior);
     EXPECT_PUSH(collector_sun_comp, CollectorSunPush, voxelToTexture, textureOffset, inverseSize, collectors);
 }
 
