@@ -199,7 +199,7 @@ std::vector<Key> fogKeys() {
         integer("fog.filter_size", {2.0, 6.0}, "4", "Taps across of the filter between two levels: 2, 4 or 6.",
                 [](Draft& d, const Value& v) { d.scene.fog.filterSize = static_cast<int>(v.integer); }),
         choice("fog.fetch", {"bilinear", "linear-bicubic", "cubic-bicubic"}, "\"linear-bicubic\"",
-               "How a level is read between its pixels.",
+               "How a level is read between its pixels; `scatter` has linear and cubic only.",
                [](Draft& d, const Value& v) { d.scene.fog.fetch = fogFetches.at(v.choice); }),
         integer("fog.depth_lookups", {0.0, 4.0}, "2",
                 "For `masked`: how often the level is corrected by the blurred distance of the level found before.",
