@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/interrupt.h"
 #include "draw/frame.h"
 #include "draw/view.h"
+#include "fog/chain.h"
+#include "fog/exact.h"
 #include "fog/media.h"
 #include "fog/scatter.h"
 #include "gpu/transfer.h"
@@ -13,18 +16,36 @@ namespace lumulus::fog {
 
 namespace {
 
-/// What a filter needs for pictures of one size.
+/// What pictures of one size need.
 struct Surface {
     Surface(gpu::Context& context, const scene::Fog& scene, const glm::ivec2& size)
         : radiance(context, "fog radiance", size, lightFormat),
           distances(context, "fog distances", size, VK_FORMAT_R32_SFLOAT),
           result(context, "fog result", size, lightFormat) {
-        scatter.emplace(context, size, pyramidStep(scene.filterSize, scene.fetch));
+        if (scene.filter == scene::FogFilter::scatter)
+            scatter.emplace(context, size, pyramidStep(scene.filterSize, scene.fetch));
+        else if (scene.filter == scene::FogFilter::gather)
+            exact.emplace(context, size);
+        else
+            chain.emplace(context, size, scene);
     }
 
     gpu::Image radiance, distances, result;
+    // the one that the scene asks for
     std::optional<Scatter> scatter;
+    std::optional<Chain> chain;
+    std::optional<Exact> exact;
 };
+
+void addTimes(std::vector<gpu::PassTime>& sums, const std::vector<gpu::PassTime>& times) {
+    for (const gpu::PassTime& time : times) {
+        const auto known = std::ranges::find(sums, time.name, &gpu::PassTime::name);
+        if (known == sums.end())
+            sums.push_back(time);
+        else
+            known->milliseconds += time.milliseconds;
+    }
+}
 
 }  // namespace
 
@@ -36,7 +57,32 @@ struct Fog::State {
     scene::Fog scene;
     gpu::Commands commands;
     std::optional<Surface> surface;
+    std::vector<gpu::PassTime> times;
+
+    void run(const LayerInputs& inputs, double largest);
+    void submit();
 };
+
+void Fog::State::submit() {
+    commands.submit();
+    commands.wait();
+    addTimes(times, commands.times());
+}
+
+void Fog::State::run(const LayerInputs& inputs, double largest) {
+    commands.begin();
+    if (surface->scatter) surface->scatter->record(commands, inputs, largest, surface->result);
+    if (surface->chain) surface->chain->record(commands, inputs, largest, surface->result);
+    if (surface->exact) surface->exact->recordLight(commands, inputs);
+    submit();
+    if (!surface->exact) return;
+    for (int row = 0; row < inputs.push.view.size.y;) {
+        stopIfInterrupted();
+        commands.begin();
+        row += surface->exact->recordSources(commands, row, surface->result);
+        submit();
+    }
+}
 
 Fog::Fog(gpu::Context& context, const scene::Fog& scene) : state_(std::make_unique<State>(context, scene)) {}
 
@@ -59,16 +105,13 @@ std::vector<glm::vec4> Fog::apply(const Layer& layer, const Camera& camera) {
                              {draw::viewParams(camera), static_cast<float>(pixelsPerRadian(camera)),
                               static_cast<float>(s.scene.skyDistance), static_cast<int>(s.scene.media.size()), 0}};
     const float farthest = *std::ranges::max_element(layer.distances);
-    s.commands.begin();
-    surface.scatter->record(s.commands, inputs, largestSpread(s.scene, camera, static_cast<double>(farthest)),
-                            surface.result);
-    s.commands.submit();
-    s.commands.wait();
+    s.times.clear();
+    s.run(inputs, largestSpread(s.scene, camera, static_cast<double>(farthest)));
     return gpu::download<glm::vec4>(s.context, surface.result);
 }
 
 const std::vector<gpu::PassTime>& Fog::times() const {
-    return state_->commands.times();
+    return state_->times;
 }
 
 }  // namespace lumulus::fog

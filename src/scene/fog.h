@@ -33,6 +33,8 @@ struct Fog {
     int filterSize = 4;  ///< taps across of the filter between levels: 2, 4 or 6
     FogFetch fetch = FogFetch::linearBicubic;
     int depthLookups = 2;                 ///< masked: how often the level is looked up in the depth chain
+    double separationLuminance = 3.0;     ///< masked: light is separated above it, W/(m² sr)
+    double separationSpread = 0.05;       ///< masked: and below this spread, share of the picture's height
     double separation = 1.0;              ///< masked: strength of the separation of bright near pixels
     double separationLevel = 0.7;         ///< masked: share of the level at which separated pixels are read
     double skyDistance = 1e5;             ///< metres: fog ends there

@@ -219,6 +219,12 @@ std::vector<Key> fogKeys() {
         number("fog.separation.strength", unit, "1.0",
                "For `masked`: how much of the light of bright near pixels is filtered apart. 0 turns it off.",
                [](Draft& d, const Value& v) { d.scene.fog.separation = v.number; }),
+        number("fog.separation.luminance", {0.0, 1e9, true}, "3.0",
+               "W/(m² sr): scattered light above it is separated, all of it at twice that.",
+               [](Draft& d, const Value& v) { d.scene.fog.separationLuminance = v.number; }),
+        number("fog.separation.spread", {0.0, 1e3, true}, "0.05",
+               "Share of the picture's height: light of a larger spread is not separated, all of it below half that.",
+               [](Draft& d, const Value& v) { d.scene.fog.separationSpread = v.number; }),
         number("fog.separation.level", unit, "0.7", "Share of the level at which separated light is read.",
                [](Draft& d, const Value& v) { d.scene.fog.separationLevel = v.number; }),
     };
