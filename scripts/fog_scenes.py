@@ -1,3 +1,4 @@
+#!/usr/bin/python3
 """Pictures that the fog's filters are measured on, made from nothing: an HDR night with many small lamps before and
 behind the edges of buildings, and a step edge. Colour and distance as one EXR file, with a scene file for its camera.
 
@@ -15,7 +16,7 @@ import numpy
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "cli"))
 from exr_writer import write_exr  # noqa: E402
 
-FIELD_OF_VIEW = 60.0  # degrees, of the height
+FIELD_OF_VIEW = 40.0  # degrees, of the height
 EYE = numpy.array([0.0, 6.0, 0.0])
 SKY_DISTANCE = 1e10
 
@@ -44,9 +45,9 @@ def box_distance(directions, low, high):
 def lamps(random, count):
     """Position, radius [m] and radiance; as wide as one to three pixels of a picture 180 pixels high."""
     for _ in range(count):
-        distance, azimuth = 10 ** random.uniform(1.1, 2.6), math.radians(random.uniform(-75, 75))
+        distance, azimuth = 10 ** random.uniform(1.5, 2.7), math.radians(random.uniform(-50, 50))
         place = EYE + distance * numpy.array([math.sin(azimuth), 0.0, -math.cos(azimuth)])
-        place[1] = random.uniform(2.0, 6.0 + 0.25 * distance)
+        place[1] = EYE[1] + random.uniform(-0.12, 0.25) * distance
         pixel = distance * 2 * math.tan(math.radians(FIELD_OF_VIEW) / 2) / 180
         yield place, random.uniform(0.6, 1.5) * pixel, 10 ** random.uniform(2.0, 4.0)
 
@@ -62,9 +63,9 @@ def night(width, height, yaw=0.0, seed=7):
     distance = numpy.where(ground, distance, SKY_DISTANCE)
     radiance[ground] = [0.05, 0.045, 0.04]
     for _ in range(36):
-        away, azimuth = 10 ** random.uniform(1.4, 2.7), math.radians(random.uniform(-85, 85))
+        away, azimuth = 10 ** random.uniform(1.8, 2.8), math.radians(random.uniform(-60, 60))
         middle = EYE + away * numpy.array([math.sin(azimuth), 0.0, -math.cos(azimuth)])
-        half = random.uniform(4.0, 14.0, 3) * numpy.array([1.0, 1.6, 1.0])
+        half = random.uniform(3.0, 16.0, 3) * numpy.array([1.0, 1.6, 1.0])
         middle[1] = half[1]
         hit = box_distance(directions, middle - half, middle + half)
         nearer = hit < distance

@@ -20,8 +20,9 @@ layout(push_constant, scalar) uniform Push { FetchPush push; };
 /// The image `chain` at level `level` (a whole number); `place` in pixels of the finest.
 vec4 chainLevel(sampler2D chain, int level, vec2 place) {
     const ivec4 rectangle = ivec4(texelFetch(levels, ivec2(clamp(level, 0, push.last), 0), 0));
-    const PyramidLevel where = PyramidLevel(rectangle.xy, rectangle.zw, push.inverseImage);
-    const vec2 at = place * exp2(-float(clamp(level, 0, push.last)));
+    const float scale = exp2(-float(clamp(level, 0, push.last)));
+    const PyramidLevel where = PyramidLevel(rectangle.xy, rectangle.zw, scale * vec2(push.size), push.inverseImage);
+    const vec2 at = scale * place;
     return FETCH == 0 || level <= 0 ? levelAt(chain, where, at) : cubicAt(chain, where, at);
 }
 

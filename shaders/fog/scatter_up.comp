@@ -16,7 +16,7 @@ layout(push_constant, scalar) uniform Push { LevelPush push; };
 
 /// Light of the half step: the binomial filter {1, 2, 1}², in four taps.
 vec3 spreadHalfway(vec2 place) {
-    const PyramidLevel level = PyramidLevel(push.finerOffset, push.finerSize, push.inverseImage);
+    const PyramidLevel level = finerLevel(push);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         const vec2 corner = place + vec2((i & 1) - 0.5, (i >> 1) - 0.5);
@@ -32,7 +32,7 @@ void main() {
     const int level = push.level - 1;
     vec3 light = texelFetch(kept, push.finerOffset + pixel, 0).rgb + spreadHalfway(place);
     if (level < push.last) {
-        const PyramidLevel from = PyramidLevel(push.coarserOffset, push.coarserSize, push.inverseImage);
+        const PyramidLevel from = coarserLevel(push);
         light += (CUBIC ? cubicAt(coarser, from, 0.5 * place) : levelAt(coarser, from, 0.5 * place)).rgb;
     }
     if (level == 0)

@@ -5,22 +5,31 @@
 
 #include "shared/fog.h"
 
-/// A place within the level: what a mirror at its borders shows.
-vec2 mirrored(vec2 place, vec2 size) {
-    const vec2 once = abs(place);
-    return clamp(min(once, 2.0 * size - once), vec2(0.5), size - 0.5);
-}
-
-/// Where a level lies in the image, in texels, and one over the image's size.
+/// Where a level lies in the image, in texels, where the picture ends in it, and one over the image's size.
 struct PyramidLevel {
     ivec2 offset;
     ivec2 size;
+    vec2 extent;
     vec2 inverseImage;
 };
 
+PyramidLevel finerLevel(LevelPush push) {
+    return PyramidLevel(push.finerOffset, push.finerSize, push.finerExtent, push.inverseImage);
+}
+
+PyramidLevel coarserLevel(LevelPush push) {
+    return PyramidLevel(push.coarserOffset, push.coarserSize, 0.5 * push.finerExtent, push.inverseImage);
+}
+
+/// A place within the level: what a mirror at the picture's borders shows.
+vec2 mirrored(vec2 place, PyramidLevel level) {
+    const vec2 once = abs(place);
+    return clamp(min(once, 2.0 * level.extent - once), vec2(0.5), vec2(level.size) - 0.5);
+}
+
 /// Linear between pixels.
 vec4 levelAt(sampler2D pyramid, PyramidLevel level, vec2 place) {
-    return textureLod(pyramid, (vec2(level.offset) + mirrored(place, vec2(level.size))) * level.inverseImage, 0.0);
+    return textureLod(pyramid, (vec2(level.offset) + mirrored(place, level)) * level.inverseImage, 0.0);
 }
 
 /// Cubic B-spline over 4×4 pixels in four taps between them (Sigg and Hadwiger 2005).
@@ -42,7 +51,7 @@ const float TAP_WEIGHTS[6] = float[6](1.0, 0.5, 0.5, 0.1875, 0.625, 0.1875);
 vec4 reduced(sampler2D pyramid, LevelPush push, ivec2 coarse, int pairs) {
     const int first = pairs * (pairs - 1) / 2;
     const vec2 middle = 2.0 * vec2(coarse) + 1.0;
-    const PyramidLevel finer = PyramidLevel(push.finerOffset, push.finerSize, push.inverseImage);
+    const PyramidLevel finer = finerLevel(push);
     vec4 sum = vec4(0.0);
     for (int y = first; y < first + pairs; ++y) {
         for (int x = first; x < first + pairs; ++x) {

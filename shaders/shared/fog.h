@@ -53,6 +53,7 @@ struct LevelPush {
     ivec2 finerSize;
     ivec2 coarserOffset;
     ivec2 coarserSize;
+    vec2 finerExtent;   // where the picture ends in the finer one: its size, unless halving left a fraction
     vec2 inverseImage;  // 1 / size of the image in texels
     int level;          // number of the coarser one
     int last;           // number of the coarsest
@@ -172,7 +173,7 @@ SHARED_FN float levelVariance(float stepVariance, int level) {
 #ifdef __cplusplus
 static_assert(sizeof(FogMedium) == 80 && offsetof(FogMedium, radius) == 76);
 static_assert(sizeof(FogPush) == 72 && offsetof(FogPush, last) == 68);
-static_assert(sizeof(LevelPush) == 52 && offsetof(LevelPush, levelScale) == 48);
+static_assert(sizeof(LevelPush) == 60 && offsetof(LevelPush, levelScale) == 56);
 static_assert(sizeof(SeparationPush) == 20 && offsetof(SeparationPush, spread) == 16);
 static_assert(sizeof(FetchPush) == 32 && offsetof(FetchPush, separationLevel) == 28);
 static_assert(sizeof(GatherPush) == 16 && offsetof(GatherPush, rows) == 12);

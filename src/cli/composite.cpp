@@ -93,7 +93,7 @@ void applyFog(LayeredImage& color, const CompositeOptions& options, const scene:
     setRadiance(color, fog.apply(layer, camera));
     statistics.device = context.device().name;
     statistics.gpuBytes = context.allocatedBytes();
-    for (const gpu::PassTime& pass : fog.times()) statistics.passes.push_back({pass.name, pass.milliseconds});
+    for (const gpu::PassTime& pass : fog.takeTimes()) statistics.passes.push_back({pass.name, pass.milliseconds});
     statistics.validationMessages = context.validationMessages();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "base/interrupt.h"
 #include "draw/frame.h"
@@ -105,13 +106,12 @@ std::vector<glm::vec4> Fog::apply(const Layer& layer, const Camera& camera) {
                              {draw::viewParams(camera), static_cast<float>(pixelsPerRadian(camera)),
                               static_cast<float>(s.scene.skyDistance), static_cast<int>(s.scene.media.size()), 0}};
     const float farthest = *std::ranges::max_element(layer.distances);
-    s.times.clear();
     s.run(inputs, largestSpread(s.scene, camera, static_cast<double>(farthest)));
     return gpu::download<glm::vec4>(s.context, surface.result);
 }
 
-const std::vector<gpu::PassTime>& Fog::times() const {
-    return state_->times;
+std::vector<gpu::PassTime> Fog::takeTimes() {
+    return std::exchange(state_->times, {});
 }
 
 }  // namespace lumulus::fog

@@ -28,8 +28,8 @@ class Fog {
     /// The layer as seen by `camera`, whose picture it fills: RGB of each pixel.
     std::vector<glm::vec4> apply(const Layer& layer, const Camera& camera);
 
-    /// Times of the passes of the last apply().
-    const std::vector<gpu::PassTime>& times() const;
+    /// Times of the passes of all apply() since the last call, added up by name.
+    std::vector<gpu::PassTime> takeTimes();
 
   private:
     struct State;

@@ -7,14 +7,10 @@ namespace lumulus::fog {
 shared::LevelPush Pyramid::between(int coarser, int lastUsed, double levelScale) const {
     const Level& fine = levels.at(static_cast<std::size_t>(coarser - 1));
     const Level& coarse = levels.at(static_cast<std::size_t>(coarser));
-    return {fine.offset,
-            fine.size,
-            coarse.offset,
-            coarse.size,
-            1.0F / glm::vec2(image),
-            coarser,
-            lastUsed,
-            static_cast<float>(levelScale)};
+    const glm::vec2 extent = glm::vec2(levels[0].size) / static_cast<float>(1 << (coarser - 1));
+    return {fine.offset, fine.size, coarse.offset,
+            coarse.size, extent,    1.0F / glm::vec2(image),
+            coarser,     lastUsed,  static_cast<float>(levelScale)};
 }
 
 Pyramid makePyramid(const glm::ivec2& size) {
