@@ -297,7 +297,7 @@ void Renderer::State::drawCloud(LayeredImage& image) {
 
 void Renderer::State::applyFog(LayeredImage& image) {
     report("fog", 0, 1);
-    fog::applyToFrame(*fog, image, camera);
+    fog::applyToFrame(*fog, image, camera, scene.sky.radiance);
     for (const gpu::PassTime& pass : fog->takeTimes()) addTime(statistics.passes, pass);
     statistics.gpuBytes = context.allocatedBytes();
     report("fog", 1, 1);

@@ -11,12 +11,6 @@ struct FogLight {
     float spread;    // standard deviation, pixels
 };
 
-/// Pixels across a radian where the ray leaves the middle of the picture (the mean of both directions).
-float pixelsPerRadianAt(vec3 direction) {
-    if (push.view.projection != PROJECTION_PERSPECTIVE) return push.pixelsPerRadian;
-    return push.pixelsPerRadian * pow(max(dot(direction, push.view.forward), 0.01), -1.5);
-}
-
 FogLight fogLight(ivec2 pixel) {
     vec3 origin, direction;
     viewRay(push.view, pixel, 1, origin, direction);
@@ -33,7 +27,7 @@ FogLight fogLight(ivec2 pixel) {
     light.scattered = share * max(seen.rgb, 0.0);
     const float angle = sqrt(spreadVariance(path));
     const bool flat_ = push.view.projection == PROJECTION_ORTHOGRAPHIC;
-    const float scale = pixelsPerRadianAt(direction) * (flat_ ? min(distance_, push.skyDistance) : 1.0);
+    const float scale = push.pixelsPerRadian * (flat_ ? min(distance_, push.skyDistance) : 1.0);
     light.spread = min(angle * scale, MAX_SPREAD);
     return light;
 }

@@ -41,7 +41,7 @@ struct FogPath {
 /// Preparation of a picture's light, a ray a pixel.
 struct FogPush {
     ViewParams view;
-    float pixelsPerRadian;  // in the middle of the picture; pixels per metre for an orthographic view
+    float pixelsPerRadian;  // the same in the whole picture; pixels per metre for an orthographic view
     float skyDistance;
     int media;
     int last;  // number of the coarsest level of the scattering pyramid

@@ -31,8 +31,8 @@ int fetchNumber(scene::FogFetch fetch) {
 }  // namespace
 
 Chain::Masked::Masked(gpu::Context& context, const glm::ivec2& extent, const PyramidStep& step, bool separate)
-    : depth(context, "fog depth", extent, VK_FORMAT_R32_SFLOAT),
-      separated(context, "fog separated", extent, lightFormat),
+    : depth(emptyImage(context, "fog depth", extent, VK_FORMAT_R32_SFLOAT)),
+      separated(emptyImage(context, "fog separated", extent, lightFormat)),
       prepare(context, "masked_prepare", spirv::masked_prepare_comp),
       down(context, "masked_down", spirv::masked_down_comp,
            {gpu::SpecConstant::of(0, step.pairs), gpu::SpecConstant::of(1, separate)}) {}
@@ -42,7 +42,7 @@ Chain::Chain(gpu::Context& context, const glm::ivec2& size, const scene::Fog& fo
       step_(pyramidStep(fog.filterSize, fog.fetch)),
       pyramid_(makePyramid(size)),
       sharp_(context, "fog sharp", size, lightFormat),
-      scattered_(context, "fog scattered", pyramid_.image, lightFormat),
+      scattered_(emptyImage(context, "fog scattered", pyramid_.image, lightFormat)),
       levels_(levelTable(context, pyramid_)),
       prepare_(context, "gather_prepare", spirv::gather_prepare_comp),
       fetch_(context, "chain_fetch", spirv::chain_fetch_comp,

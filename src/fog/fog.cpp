@@ -110,6 +110,10 @@ std::vector<glm::vec4> Fog::apply(const Layer& layer, const Camera& camera) {
     return gpu::download<glm::vec4>(s.context, surface.result);
 }
 
+const scene::Fog& Fog::scene() const {
+    return state_->scene;
+}
+
 std::vector<gpu::PassTime> Fog::takeTimes() {
     return std::exchange(state_->times, {});
 }

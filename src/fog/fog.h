@@ -28,6 +28,7 @@ class Fog {
     /// The layer as seen by `camera`, whose picture it fills: RGB of each pixel.
     std::vector<glm::vec4> apply(const Layer& layer, const Camera& camera);
 
+    const scene::Fog& scene() const;
     /// Times of the passes of all apply() since the last call, added up by name.
     std::vector<gpu::PassTime> takeTimes();
 

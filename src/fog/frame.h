@@ -5,10 +5,11 @@
 
 namespace lumulus::fog {
 
-/// Shows a drawn frame (layers as draw::skyImage makes them) through the fog, in place. A frame is two layers: the
-/// cloud at its mean distance, with how much it covers, and the sky behind it; each is filtered by itself. What is
-/// approximated: a cloud scatters and is dimmed as if it stood at one distance in each pixel. R, G, B and cloud.R, G, B
-/// change, the other layers do not.
-void applyToFrame(Fog& fog, LayeredImage& image, const Camera& camera);
+/// Shows a drawn frame (layers as draw::skyImage makes them) through the fog, in place: R, G, B and cloud.R, G, B
+/// change. The cloud is a layer at its mean distance, with how much it covers. A sky that is the same everywhere stays
+/// so in fog, but for what is absorbed; what differs from `skyRadiance` is filtered as a layer behind all fog: light
+/// that the cloud takes out of the sky, and the sun's disc. What is approximated: in each pixel a cloud stands at one
+/// distance.
+void applyToFrame(Fog& fog, LayeredImage& image, const Camera& camera, const glm::dvec3& skyRadiance);
 
 }  // namespace lumulus::fog

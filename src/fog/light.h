@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "gpu/commands.h"
+#include "gpu/transfer.h"
 #include "shared/fog.h"
 
 namespace lumulus::fog {
@@ -24,6 +25,13 @@ struct LayerInputs {
 /// Workgroups of 16 × 4 invocations, one for each pixel.
 inline glm::uvec3 pixelGroups(const glm::ivec2& size) {
     return {(static_cast<std::uint32_t>(size.x) + 15) / 16, (static_cast<std::uint32_t>(size.y) + 3) / 4, 1};
+}
+
+/// An image of zeros: what no pass writes, between the levels of a pyramid, must not hold what was there before.
+inline gpu::Image emptyImage(gpu::Context& context, const char* name, const glm::ivec2& extent, VkFormat format) {
+    gpu::Image image(context, name, extent, format);
+    gpu::upload(context, image, std::vector<std::byte>(image.bytes()));
+    return image;
 }
 
 /// RGB and a fourth value of each pixel. Whole floats: half ones overflow at a radiance of 65504.

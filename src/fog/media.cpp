@@ -73,10 +73,6 @@ double largestSpread(const scene::Fog& fog, const Camera& camera, double farthes
                    densestPath(medium, distance, sky);
     double scale = pixelsPerRadian(camera);
     if (camera.projection == scene::Projection::orthographic) scale *= std::min(farthest, fog.skyDistance);
-    if (camera.projection == scene::Projection::perspective) {
-        const double across = camera.tanHalfFov * camera.width / camera.height;
-        scale *= std::pow(1.0 + across * across + camera.tanHalfFov * camera.tanHalfFov, 0.75);
-    }
     return std::sqrt(turning / 8.0) * scale;
 }
 

@@ -17,7 +17,8 @@ std::vector<shared::FogMedium> mediaAround(const scene::Fog& fog, const glm::dve
 /// `skyDistance`.
 glm::dvec3 sunTransmittance(const scene::Fog& fog, const glm::dvec3& point, const glm::dvec3& directionTo);
 
-/// Pixels across a radian in the middle of the picture; for an orthographic camera pixels across a metre.
+/// Pixels across a radian in the middle of the picture, taken for all of it: a picture of one distance has one spread,
+/// and light of the same everywhere stays so. For an orthographic camera pixels across a metre.
 double pixelsPerRadian(const Camera& camera);
 
 /// A bound of the spread [pixels] of light from `farthest` metres away and nearer, in any direction that the camera

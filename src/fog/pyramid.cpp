@@ -4,6 +4,13 @@
 
 namespace lumulus::fog {
 
+namespace {
+
+/// Texels of nothing between levels: taps at a level's border reach a rounding error beyond it.
+constexpr int gap = 1;
+
+}  // namespace
+
 shared::LevelPush Pyramid::between(int coarser, int lastUsed, double levelScale) const {
     const Level& fine = levels.at(static_cast<std::size_t>(coarser - 1));
     const Level& coarse = levels.at(static_cast<std::size_t>(coarser));
@@ -17,14 +24,16 @@ Pyramid makePyramid(const glm::ivec2& size) {
     Pyramid pyramid;
     pyramid.levels.push_back({glm::ivec2(0), size});
     const int along = size.x >= size.y ? 0 : 1;
+    const int across = 1 - along;
     glm::ivec2 offset(0);
-    offset[1 - along] = size[1 - along];
+    offset[across] = size[across] + gap;
     pyramid.image = size;
     do {
         const glm::ivec2 half = (pyramid.levels.back().size + 1) / 2;
+        const int axis = pyramid.levels.size() == 1 ? along : across;
         pyramid.levels.push_back({offset, half});
         pyramid.image = glm::max(pyramid.image, offset + half);
-        offset[along] += half[along];
+        offset[axis] += half[axis] + gap;
     } while (pyramid.levels[pyramid.levels.size() - 2].size != glm::ivec2(1));
     return pyramid;
 }

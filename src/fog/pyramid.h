@@ -9,8 +9,9 @@
 
 namespace lumulus::fog {
 
-/// Where the levels of a pyramid lie in one image: the finest in the upper left corner, the coarser ones in a row below
-/// it or in a column beside it, whichever keeps the image's longer side short.
+/// Where the levels of a pyramid lie in one image, with a texel of nothing between them: the finest in the upper left
+/// corner, the next below it (beside it where the picture is higher than wide) and all others beside that one (below
+/// it).
 struct Pyramid {
     struct Level {
         glm::ivec2 offset{0};

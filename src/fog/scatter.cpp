@@ -15,9 +15,9 @@ namespace spirv {
 Scatter::Scatter(gpu::Context& context, const glm::ivec2& size, const PyramidStep& step)
     : step_(step),
       pyramid_(makePyramid(size)),
-      kept_(context, "fog kept", pyramid_.image, lightFormat),
-      halfway_(context, "fog halfway", pyramid_.image, lightFormat),
-      passed_(context, "fog passed", pyramid_.image, lightFormat),
+      kept_(emptyImage(context, "fog kept", pyramid_.image, lightFormat)),
+      halfway_(emptyImage(context, "fog halfway", pyramid_.image, lightFormat)),
+      passed_(emptyImage(context, "fog passed", pyramid_.image, lightFormat)),
       prepare_(context, "scatter_prepare", spirv::scatter_prepare_comp,
                {gpu::SpecConstant::of(0, static_cast<float>(step_.variance))}),
       down_(context, "scatter_down", spirv::scatter_down_comp,
