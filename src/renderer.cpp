@@ -16,6 +16,8 @@
 #include "draw/sky.h"
 #include "draw/sun_depth.h"
 #include "draw/view.h"
+#include "fog/frame.h"
+#include "fog/media.h"
 #include "gpu/commands.h"
 #include "photon/photon_map.h"
 #include "volume/load.h"
@@ -75,12 +77,14 @@ struct Renderer::State {
     std::optional<draw::LightField> lightField;
     std::optional<draw::Billboards> billboards;
     std::optional<draw::March> march;
+    std::optional<fog::Fog> fog;
+    scene::Sun sunlight = scene.sun;  ///< that reaches the cloud through the fog
 
     bool sunDrawn = false;  // the sun's depths are up to date
     Statistics statistics;
 
     bool scatters() const { return largest(medium.albedo) > 0.0; }
-    bool hasSun() const { return largest(scene.sun.irradiance) > 0.0; }
+    bool hasSun() const { return largest(sunlight.irradiance) > 0.0; }
     bool hasLight() const { return hasSun() || largest(scene.sky.radiance) > 0.0; }
 
     void makeMedium(const scene::Cloud& from, double maximum);
@@ -90,6 +94,7 @@ struct Renderer::State {
     void prepareDrawing();
     shared::FieldParams fieldParams() const;
     void recordLight();
+    void applyFog(LayeredImage& image);
     void drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params, int firstRow, int rows);
     glm::dvec3 toVoxel(const glm::dvec3& world) const;
     glm::vec3 eyeVoxel() const;
@@ -136,6 +141,7 @@ Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
     : state_(std::make_unique<State>(scene, options)) {
     State& s = *state_;
     s.statistics.device = s.context.device().name;
+    if (!scene.fog.media.empty()) s.fog.emplace(s.context, scene.fog);
     if (scene.clouds.empty()) {
         s.camera = makeCamera(scene.camera, scene.image, Bounds{});
         return;
@@ -144,7 +150,9 @@ Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
     CloudVolume loaded = loadCloudVolume(scene.clouds[0], scene.preparation.memoryBudget, s.report);
     s.statistics.warnings = std::move(loaded.warnings);
     s.statistics.loadSeconds = secondsSince(start);
-    s.camera = makeCamera(scene.camera, scene.image, boundsOf(loaded.volume));
+    const Bounds bounds = boundsOf(loaded.volume);
+    s.camera = makeCamera(scene.camera, scene.image, bounds);
+    if (s.fog) s.sunlight.irradiance *= fog::sunTransmittance(scene.fog, bounds.centre, scene.sun.directionTo);
     if (loaded.volume.empty()) return;
 
     start = Clock::now();
@@ -170,7 +178,7 @@ int Renderer::generationsWanted() const {
 void Renderer::traceGeneration() {
     State& s = *state_;
     const auto start = Clock::now();
-    if (s.photons) s.photons->trace(s.scene.sun, s.scene.sky);
+    if (s.photons) s.photons->trace(s.sunlight, s.scene.sky);
     s.statistics.traceSeconds += secondsSince(start);
 }
 
@@ -220,7 +228,7 @@ shared::FieldParams Renderer::State::fieldParams() const {
 /// Light in the cloud as this view sees it; the sun's depths only once.
 void Renderer::State::recordLight() {
     if (sunDepth && !sunDrawn) {
-        sunDepth->record(commands, -scene.sun.directionTo, medium.extinction);
+        sunDepth->record(commands, -sunlight.directionTo, medium.extinction);
         if (collectorSun) {
             commands.barrier("sun depths");
             collectorSun->record(commands, *sunDepth);
@@ -240,7 +248,8 @@ void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inp
                                int rows) {
     shared::DrawParams values{};
     values.view = draw::viewParams(camera);
-    values.light = draw::lightParams(scene.sun, scene.sky, medium.albedo, medium.tables);
+    values.light = draw::lightParams(sunlight, scene.sky, medium.albedo, medium.tables);
+    values.light.sunDisc = draw::lightParams(scene.sun, scene.sky, medium.albedo, medium.tables).sunDisc;
     values.field = fieldParams();
     values.firstRow = firstRow;
     values.rows = rows;
@@ -291,6 +300,14 @@ void Renderer::State::drawCloud(LayeredImage& image) {
     statistics.gpuBytes = context.allocatedBytes();
 }
 
+void Renderer::State::applyFog(LayeredImage& image) {
+    report("fog", 0, 1);
+    fog::applyToFrame(*fog, image, camera, scene.sky.radiance);
+    for (const gpu::PassTime& pass : fog->takeTimes()) addTime(statistics.passes, pass);
+    statistics.gpuBytes = context.allocatedBytes();
+    report("fog", 1, 1);
+}
+
 LayeredImage Renderer::draw() {
     State& s = *state_;
     const auto start = Clock::now();
@@ -301,6 +318,7 @@ LayeredImage Renderer::draw() {
         for (const gpu::PassTime& pass : s.photons->times()) addTime(s.statistics.passes, pass);
     }
     if (s.billboards || s.march) s.drawCloud(image);
+    if (s.fog) s.applyFog(image);
     s.statistics.drawSeconds += secondsSince(start);
     return image;
 }

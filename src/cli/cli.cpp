@@ -11,6 +11,7 @@
 #include "cli/bench.h"
 #include "cli/cloud.h"
 #include "cli/compare.h"
+#include "cli/composite.h"
 #include "cli/info.h"
 #include "cli/output.h"
 #include "cli/reference.h"
@@ -125,6 +126,25 @@ void addCompare(CLI::App& app, CompareOptions& options, Action& action) {
     command->callback([&options, &action] { action = [&options] { runCompare(options); }; });
 }
 
+void addComposite(CLI::App& app, CompositeOptions& options, Action& action) {
+    CLI::App* command = app.add_subcommand("composite", "Show a picture of any renderer through a scene's fog");
+    command->add_option("--color", options.color, "Picture (.exr) with R, G and B, linear")->required();
+    command->add_option("--depth", options.depth,
+                        "File (.exr) with Z or depth.Z; default: the picture itself. See fog.depth for its meaning");
+    command->add_option("--scene", options.scene, "Scene file (TOML): its camera and its fog")->required();
+    command->add_option("-o,--output", options.outputs, "Picture: .exr (linear float) or .png; may repeat")
+        ->required()
+        ->allow_extra_args(false);
+    command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
+        ->allow_extra_args(false);
+    addDevice(*command, options.device);
+    command->add_option("--stats", options.stats, "Write statistics as JSON to this file, - for standard output")
+        ->check(notEmpty());
+    command->add_flag("--validate", options.validate, "Run with Vulkan validation; fail on any message");
+    command->footer("Example:\n  lumulus composite --color view.exr --scene fog.toml -o fog.exr -o fog.png");
+    command->callback([&options, &action] { action = [&options] { runComposite(options); }; });
+}
+
 void addSlab(CLI::App& app, SlabOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("slab", "Trace a plane-parallel layer: reflected, transmitted, absorbed");
     command->add_option("--tau", options.slab.tau, "Optical thickness")->required();
@@ -178,6 +198,7 @@ void parseAndRun(int argc, const char* const* argv) {
     InfoOptions info;
     ReferenceOptions reference;
     CompareOptions compare;
+    CompositeOptions composite;
     BenchOptions bench;
     SlabOptions slab;
     addRender(app, render, action);
@@ -185,6 +206,7 @@ void parseAndRun(int argc, const char* const* argv) {
     addInfo(app, info, action);
     addReference(app, reference, action);
     addCompare(app, compare, action);
+    addComposite(app, composite, action);
     addBench(app, bench, action);
     addSlab(app, slab, action);
     try {

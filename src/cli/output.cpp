@@ -6,9 +6,14 @@
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
+#include <set>
 #include <system_error>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/exr.h"
+#include "base/png.h"
+#include "base/tonemap.h"
 
 namespace lumulus::cli {
 
@@ -25,6 +30,25 @@ void requireSuffix(const std::filesystem::path& path, std::initializer_list<std:
     }
     throw InputError(fmt::format("cannot write a file of this kind: \"{}\"", path.extension().string()), path.string(),
                      fmt::format("give a name that ends with {}", fmt::join(suffixes, " or ")));
+}
+
+void checkPlaces(const std::vector<std::filesystem::path>& outputs) {
+    std::set<std::filesystem::path> files;
+    for (const auto& output : outputs) {
+        std::error_code ec;
+        const std::filesystem::path file = std::filesystem::weakly_canonical(output, ec);
+        if (!files.insert(ec ? output.lexically_normal() : file).second)
+            throw InputError("the same output is given twice", output.string(), "give each output a name of its own");
+    }
+    for (const auto& output : outputs) checkWritable(output);
+}
+
+void writePicture(const std::filesystem::path& path, const LayeredImage& image, double exposure) {
+    if (hasSuffix(path, ".exr")) {
+        writeExr(path, image);
+    } else {
+        writePng(path, image.width, image.height, toneMap(image, exposure));
+    }
 }
 
 void printOut(std::string_view text) {

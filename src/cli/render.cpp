@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <set>
 #include <span>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
-#include "base/exr.h"
 #include "base/interrupt.h"
 #include "base/log.h"
-#include "base/png.h"
 #include "base/progress.h"
-#include "base/tonemap.h"
 #include "base/version.h"
 #include "cli/output.h"
 #include "cli/stats_json.h"
@@ -33,24 +29,12 @@ bool statsToFile(const RenderOptions& options) {
     return !options.stats.empty() && options.stats != "-";
 }
 
-/// Throws where two outputs are one file, by whatever names.
-void checkDistinct(const std::vector<std::filesystem::path>& outputs) {
-    std::set<std::filesystem::path> files;
-    for (const auto& output : outputs) {
-        std::error_code ec;
-        const std::filesystem::path file = std::filesystem::weakly_canonical(output, ec);
-        if (!files.insert(ec ? output.lexically_normal() : file).second)
-            throw InputError("the same output is given twice", output.string(), "give each output a name of its own");
-    }
-}
-
 /// Everything that can be known to fail later fails here, before the work.
 void checkOutputs(const RenderOptions& options) {
     std::vector<std::filesystem::path> outputs = options.outputs;
     for (const auto& output : outputs) requireSuffix(output, {".exr", ".png"});
     if (statsToFile(options)) outputs.emplace_back(options.stats);
-    checkDistinct(outputs);
-    for (const auto& output : outputs) checkWritable(output);
+    checkPlaces(outputs);
 }
 
 scene::Scene sceneOf(const RenderOptions& options) {
@@ -75,22 +59,8 @@ LayeredImage renderFrame(Renderer& renderer, Steps& steps) {
 
 void writeOutputs(const RenderOptions& options, const LayeredImage& image, double exposure, Steps& steps) {
     steps.report("writing", 0, 1);
-    for (const auto& output : options.outputs) {
-        if (hasSuffix(output, ".exr")) {
-            writeExr(output, image);
-        } else {
-            writePng(output, image.width, image.height, toneMap(image, exposure));
-        }
-    }
+    for (const auto& output : options.outputs) writePicture(output, image, exposure);
     steps.report("writing", 1, 1);
-}
-
-void writeStats(const std::string& where, const std::string& json) {
-    if (where == "-") {
-        printOut(json);
-    } else if (!where.empty()) {
-        writeFile(where, std::as_bytes(std::span(json)));
-    }
 }
 
 }  // namespace
@@ -116,11 +86,8 @@ void runRender(const RenderOptions& options) {
     const Clock::time_point writing = Clock::now();
     writeOutputs(options, image, scene.image.exposure, steps);
     const double writeSeconds = secondsSince(writing);
-    writeStats(options.stats, statisticsJson(statistics, writeSeconds, secondsSince(start)));
-    if (options.validate && !statistics.validationMessages.empty()) {
-        throw Error("Vulkan validation: " + statistics.validationMessages.front(), statistics.device,
-                    "this is a mistake of Lumulus: please report it");
-    }
+    writeStatistics(options.stats, statisticsJson(statistics, writeSeconds, secondsSince(start)));
+    requireNoMessages(options.validate, statistics);
 }
 
 }  // namespace lumulus::cli

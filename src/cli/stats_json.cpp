@@ -1,6 +1,11 @@
 #include "cli/stats_json.h"
 
 #include <nlohmann/json.hpp>
+#include <span>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "cli/output.h"
 
 namespace lumulus::cli {
 
@@ -34,6 +39,20 @@ std::string statisticsJson(const Statistics& s, double writeSeconds, double tota
     };
     // names of devices and files may hold bytes that are no UTF-8
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void writeStatistics(const std::string& where, const std::string& json) {
+    if (where == "-") {
+        printOut(json);
+    } else if (!where.empty()) {
+        writeFile(where, std::as_bytes(std::span(json)));
+    }
+}
+
+void requireNoMessages(bool validate, const Statistics& statistics) {
+    if (!validate || statistics.validationMessages.empty()) return;
+    throw Error("Vulkan validation: " + statistics.validationMessages.front(), statistics.device,
+                "this is a mistake of Lumulus: please report it");
 }
 
 }  // namespace lumulus::cli

@@ -9,4 +9,10 @@ namespace lumulus::cli {
 /// What --stats writes: one JSON object and a newline. Seconds of writing and of everything come from the caller.
 std::string statisticsJson(const Statistics& statistics, double writeSeconds, double totalSeconds);
 
+/// Writes the JSON where --stats says: a file, "-" for stdout, nowhere if empty. Errors: those of writing.
+void writeStatistics(const std::string& where, const std::string& json);
+
+/// What --validate asks for. Errors: Error with the first message of the validation layer, where there is one.
+void requireNoMessages(bool validate, const Statistics& statistics);
+
 }  // namespace lumulus::cli

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/arrays.h"
 #include "scene/schema.h"
 
 namespace lumulus::scene {
@@ -19,10 +20,13 @@ may stand for a whole number. NaN and infinity are refused everywhere.
 - Units: metres, degrees, W/m² and W/(m² sr) per channel of linear Rec. 709. Right-handed, +Y is up.
 - Paths are relative to the scene file.
 - `[[cloud]]` stands in two brackets. This version renders one cloud; `cloud = []` is a scene without any.
-- `--set section.key=value` overrides a key, `--set cloud.0.extinction=0.2` one of the cloud. The value is TOML, or
+- `[[fog.media]]` stands once for each medium; without one there is no fog. Keys that a medium's kind does not have are
+  errors.
+- `--set section.key=value` overrides a key, `--set cloud.0.extinction=0.2` one of the cloud,
+  `--set fog.media.0.visibility=500` one of the first medium. The value is TOML, or
   else a bare string: `--set draw.mode=march`. An override of one of two keys that exclude each other (`sun.azimuth`,
   `sun.direction_to`; `cloud.0.vdb`, `cloud.0.procedural`) takes the file's other one out; one of
-  `cloud.0.phase.model` takes out the parameters that it does not have.
+  `cloud.0.phase.model` or of a medium's `kind` takes out the parameters that it does not have.
 - `--quality` stands below the file: it changes only what the scene leaves out.
 
 | quality | photons | generations | bands |
@@ -33,9 +37,11 @@ may stand for a whole number. NaN and infinity are refused everywhere.
 )";
 
 std::string heading(std::string_view section) {
-    if (section == "cloud") return "[[cloud]]";
-    if (section.starts_with("cloud."))
-        return fmt::format("[{}] (or `{} = {{ … }}` in the cloud)", section, section.substr(section.rfind('.') + 1));
+    if (const ArraySection* array = arrayOf(section); array != nullptr && array->name == section)
+        return fmt::format("[[{}]]", section);
+    if (const std::size_t dot = section.rfind('.'); dot != std::string_view::npos)
+        return fmt::format("[{}] (or `{} = {{ … }}` in [{}])", section, section.substr(dot + 1),
+                           section.substr(0, dot));
     return fmt::format("[{}]", section);
 }
 

@@ -10,6 +10,8 @@ using Text = std::string_view;
 
 constexpr Range unit{0.0, 1.0};
 constexpr Range light{0.0, 1e9};
+constexpr Range coefficients{0.0, 1e6};
+constexpr double koschmieder = 3.912;            // −ln(.02): optical depth at the visibility (Koschmieder 1924)
 constexpr Range seeds{0.0, 9007199254740992.0};  // 2^53, which every reader of numbers takes exactly
 
 constexpr std::array projections{Projection::perspective, Projection::orthographic, Projection::panorama};
@@ -22,6 +24,10 @@ constexpr std::array phaseModels{PhaseModel::henyeyGreenstein,
                                  PhaseModel::droplet};
 constexpr std::array majorants{Majorant::automatic, Majorant::local, Majorant::global};
 constexpr std::array drawModes{DrawMode::march, DrawMode::billboards};
+constexpr std::array fogFilters{FogFilter::scatter, FogFilter::masked, FogFilter::naive, FogFilter::gather};
+constexpr std::array fogFetches{FogFetch::bilinear, FogFetch::linearBicubic, FogFetch::cubicBicubic};
+constexpr std::array fogDepths{FogDepth::distance, FogDepth::planar, FogDepth::zbuffer};
+constexpr std::array mediumKinds{MediumKind::homogeneous, MediumKind::exponential, MediumKind::sphere};
 
 Key number(Text name, Range range, Text fallback, Text documentation, Setter set) {
     return {name, Type::number, range, {}, fallback, documentation, set};
@@ -44,7 +50,11 @@ Key other(Text name, Type type, Text fallback, Text documentation, Setter set) {
 }
 
 Cloud& cloudOf(Draft& d) {
-    return d.scene.clouds.at(d.cloud);
+    return d.scene.clouds.at(d.entry);
+}
+
+FogMedium& mediumOf(Draft& d) {
+    return d.scene.fog.media.at(d.entry);
 }
 
 std::vector<Key> imageAndCameraKeys() {
@@ -180,13 +190,87 @@ std::vector<Key> photonMapAndDrawKeys() {
     };
 }
 
+std::vector<Key> fogKeys() {
+    return {
+        choice("fog.filter", {"scatter", "masked", "naive", "gather"}, "\"scatter\"",
+               "How light that the fog scatters is spread over the picture: `scatter` conserves energy, `masked` (Elek "
+               "2013, Iser 2017) and `naive` gather from blurred copies, `gather` is the exact and slow reference.",
+               [](Draft& d, const Value& v) { d.scene.fog.filter = fogFilters.at(v.choice); }),
+        integer("fog.filter_size", {2.0, 6.0}, "4", "Taps across of the filter between two levels: 2, 4 or 6.",
+                [](Draft& d, const Value& v) { d.scene.fog.filterSize = static_cast<int>(v.integer); }),
+        choice("fog.fetch", {"bilinear", "linear-bicubic", "cubic-bicubic"}, "\"linear-bicubic\"",
+               "How a level is read between its pixels; `scatter` has linear and cubic only.",
+               [](Draft& d, const Value& v) { d.scene.fog.fetch = fogFetches.at(v.choice); }),
+        integer("fog.depth_lookups", {0.0, 4.0}, "2",
+                "For `masked`: how often the level is corrected by the blurred distance of the level found before.",
+                [](Draft& d, const Value& v) { d.scene.fog.depthLookups = static_cast<int>(v.integer); }),
+        number("fog.sky_distance", {0.0, 1e9, true}, "100000.0",
+               "Metres: what is farther, the sky too, is seen through this much of the fog.",
+               [](Draft& d, const Value& v) { d.scene.fog.skyDistance = v.number; }),
+        choice("fog.depth", {"distance", "planar", "zbuffer"}, "\"distance\"",
+               "What the depth of `lumulus composite` is: metres along the ray, metres along the view's axis, or a "
+               "z-buffer from 0 at `near` to 1 at `far`.",
+               [](Draft& d, const Value& v) { d.scene.fog.depth = fogDepths.at(v.choice); }),
+        number("fog.near", {0.0, 1e9, true}, "0.1",
+               "Metres: where the z-buffer is 0. A reversed one has it beyond `far`.",
+               [](Draft& d, const Value& v) { d.scene.fog.near = v.number; }),
+        number("fog.far", {0.0, 1e9, true}, "1000.0", "Metres: where the z-buffer is 1.",
+               [](Draft& d, const Value& v) { d.scene.fog.far = v.number; }),
+        number("fog.separation.strength", unit, "1.0",
+               "For `masked`: how much of the light of bright near pixels is filtered apart. 0 turns it off.",
+               [](Draft& d, const Value& v) { d.scene.fog.separation = v.number; }),
+        number("fog.separation.luminance", {0.0, 1e9, true}, "3.0",
+               "W/(m² sr): scattered light above it is separated, all of it at twice that.",
+               [](Draft& d, const Value& v) { d.scene.fog.separationLuminance = v.number; }),
+        number("fog.separation.spread", {0.0, 1e3, true}, "0.05",
+               "Share of the picture's height: light of a larger spread is not separated, all of it below half that.",
+               [](Draft& d, const Value& v) { d.scene.fog.separationSpread = v.number; }),
+        number("fog.separation.level", unit, "0.7", "Share of the level at which separated light is read.",
+               [](Draft& d, const Value& v) { d.scene.fog.separationLevel = v.number; }),
+    };
+}
+
+std::vector<Key> mediumKeys() {
+    return {
+        choice("fog.media.kind", {"homogeneous", "exponential", "sphere"}, "\"homogeneous\"",
+               "Relative density ϱ at x: 1; exp(-falloff ⟨x - offset, direction⟩); 1 - (r/radius)², r from the center "
+               "within the "
+               "radius. All media add up.",
+               [](Draft& d, const Value& v) { mediumOf(d).kind = mediumKinds.at(v.choice); }),
+        rgb("fog.media.scattering", coefficients, "0.0", "Scattering coefficient where ϱ is 1, 1/m.",
+            [](Draft& d, const Value& v) { mediumOf(d).scattering = v.vector; }),
+        rgb("fog.media.absorption", coefficients, "0.0", "Absorption coefficient where ϱ is 1, 1/m.",
+            [](Draft& d, const Value& v) { mediumOf(d).absorption = v.vector; }),
+        number(
+            "fog.media.visibility", {0.0, 1e9, true}, "(scattering and absorption instead)",
+            "Metres: a medium that only scatters, 3.912/visibility where ϱ is 1 (Koschmieder: 2 % of the contrast is "
+            "left at that distance). Instead of `scattering` and `absorption`.",
+            [](Draft& d, const Value& v) { mediumOf(d).scattering = glm::dvec3(koschmieder / v.number); }),
+        number("fog.media.g", {-1.0, 1.0, true, true}, "0.9", "Mean cosine of scattering.",
+               [](Draft& d, const Value& v) { mediumOf(d).g = v.number; }),
+        rgb("fog.media.emission", light, "0.0", "Radiance gained per metre where ϱ is 1, W/(m³ sr).",
+            [](Draft& d, const Value& v) { mediumOf(d).emission = v.vector; }),
+        number("fog.media.falloff", {0.0, 1e3}, "0.01", "1/m, for `exponential`.",
+               [](Draft& d, const Value& v) { mediumOf(d).falloff = v.number; }),
+        other("fog.media.direction", Type::vector, "[0.0, 1.0, 0.0]",
+              "For `exponential`: towards thinner fog, any length.",
+              [](Draft& d, const Value& v) { mediumOf(d).direction = v.vector; }),
+        other("fog.media.offset", Type::vector, "[0.0, 0.0, 0.0]", "For `exponential`: a point where ϱ is 1, metres.",
+              [](Draft& d, const Value& v) { mediumOf(d).offset = v.vector; }),
+        other("fog.media.center", Type::vector, "[0.0, 0.0, 0.0]", "Of a `sphere`, metres.",
+              [](Draft& d, const Value& v) { mediumOf(d).center = v.vector; }),
+        number("fog.media.radius", {0.0, 1e9, true}, "100.0", "Of a `sphere`, metres.",
+               [](Draft& d, const Value& v) { mediumOf(d).radius = v.number; }),
+    };
+}
+
 }  // namespace
 
 const std::vector<Key>& schema() {
     static const std::vector<Key> all = [] {
         std::vector<Key> keys;
         for (const auto& part : {imageAndCameraKeys(), sunAndSkyKeys(), cloudKeys(), phaseKeys(), preparationKeys(),
-                                 photonMapAndDrawKeys()}) {
+                                 photonMapAndDrawKeys(), fogKeys(), mediumKeys()}) {
             keys.insert(keys.end(), part.begin(), part.end());
         }
         return keys;

@@ -50,9 +50,11 @@ Scene parseScene(std::string_view toml, const std::string& sourceName, std::span
     Draft draft;
     draft.scene.source = sourceName;
     draft.folder = std::filesystem::path(sourceName).parent_path();
-    draft.scene.clouds.resize(settings.clouds().value_or(1));
+    draft.scene.clouds.resize(settings.entries("cloud").value_or(1));
+    draft.scene.fog.media.resize(settings.entries("fog.media").value_or(0));
     if (quality) applyQuality(draft.scene, *quality);
     for (const auto& [path, setting] : settings.all()) {
+        draft.entry = setting.entry;
         setting.key->set(draft, readValue(*setting.node, *setting.key, setting.where));
     }
     return finishScene(std::move(draft), settings);

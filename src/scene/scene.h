@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/fog.h"
+
 /// The scene as values: what the file says, with every default filled in and every value checked at the door.
 /// Units: metres, degrees (angles of the file), W·m⁻² and W·m⁻²·sr⁻¹ per channel, 1/m.
 namespace lumulus::scene {
@@ -122,6 +124,7 @@ struct Scene {
     Preparation preparation;
     PhotonMap photonMap;
     Draw draw;
+    Fog fog;
     std::string source;  ///< file name, for messages and the EXR header
 
     bool operator==(const Scene&) const = default;

@@ -38,7 +38,7 @@ struct Value {
 /// A scene while its keys are read one by one.
 struct Draft {
     Scene scene;
-    std::size_t cloud = 0;         ///< the cloud that `cloud.*` keys belong to
+    std::size_t entry = 0;         ///< of the array section that the key belongs to
     std::filesystem::path folder;  ///< of the scene file: relative paths start here
     std::optional<glm::dvec3> directionTo;
     std::optional<double> azimuth, elevation;  ///< of the sun, degrees
@@ -46,7 +46,7 @@ struct Draft {
 
 /// One key of the scene file. The parser, its messages and docs/scene-format.md all come from these rows.
 struct Key {
-    std::string_view name;  ///< "section.key"; the keys of [[cloud]] are "cloud.key", without the index
+    std::string_view name;  ///< "section.key"; those of [[cloud]] are "cloud.key", without the index
     Type type;
     Range range;
     std::vector<std::string_view> choices;

@@ -65,24 +65,23 @@ std::optional<toml::table> parseOverrideValue(std::string_view text, const std::
     throw InputError(fmt::format("unknown key \"{}\"", name.substr(start)), where, suggestKey(name));
 }
 
-/// "cloud.0.phase.g" → "cloud.phase.g"; a path without the index of its cloud is refused with the way to write it.
-std::string schemaName(const std::string& path) {
-    if (!path.starts_with("cloud.")) return path;
-    const std::string rest = path.substr(6);
-    const std::size_t dot = rest.find('.');
-    const std::string index = rest.substr(0, dot);
-    if (findKey("cloud." + index) != nullptr || isSection("cloud." + index)) {
-        throw InputError("which cloud is meant?", "--set " + path, "write cloud.0." + rest);
+/// The index that a path of --set gives the entry of an array; a path without one is refused with the way to write it.
+std::size_t entryIndex(const ArraySection& array, const std::string& path) {
+    const std::string index(indexIn(array, path));
+    const std::string name(array.name), rest = path.substr(std::min(path.size(), name.size() + 1));
+    const std::string where = "--set " + path;
+    if (findKey(name + "." + index) != nullptr || isSection(name + "." + index)) {
+        throw InputError(fmt::format("which {} is meant?", array.entry), where,
+                         fmt::format("write {}.0.{}", name, rest));
     }
     const bool digits = !index.empty() && std::ranges::all_of(index, [](char c) { return c >= '0' && c <= '9'; });
     if (!digits || (index.size() > 1 && index[0] == '0')) {
-        throw InputError(fmt::format("the index of a cloud must be a plain number, got \"{}\"", index), "--set " + path,
-                         "write cloud.0" + (dot == std::string::npos ? "" : rest.substr(dot)));
+        throw InputError(fmt::format("the index of a {} must be a plain number, got \"{}\"", array.entry, index), where,
+                         fmt::format("write {}.0{}", name, rest.substr(index.size())));
     }
-    if (index != "0") {
-        throw InputError("this version renders one cloud a scene", "--set " + path, "leave the other clouds out");
-    }
-    return dot == std::string::npos ? "cloud" : "cloud." + rest.substr(dot + 1);
+    const std::size_t entry = index.size() > 9 ? array.most : std::stoul(index);
+    if (entry >= array.most) throw InputError(std::string(array.limit), where, "leave the others out");
+    return entry;
 }
 
 }  // namespace
@@ -107,14 +106,31 @@ void Settings::addOverride(std::string_view text) {
         documents_.push_back(toml::table{{"value", std::string(text.substr(equals + 1))}});
     }
     const toml::node& node = *documents_.back().get("value");
-    if (path == "cloud") {
-        std::erase_if(settings_, [](const auto& entry) { return entry.first.starts_with("cloud."); });
-        collectClouds(node, Origin{});
+    const ArraySection* array = arrayOf(path);
+    if (array != nullptr && path == array->name) {
+        std::erase_if(settings_, [&](const auto& entry) { return entry.first.starts_with(path + "."); });
+        collectEntries(*array, node, Origin{});
         return;
     }
-    const std::string name = schemaName(path);
-    if (path.starts_with("cloud.")) clouds_ = std::max<std::size_t>(clouds_.value_or(0), 1);
-    collect(node, path, name, Origin{});
+    collect(node, path, array == nullptr ? path : overriddenName(*array, path), Origin{});
+}
+
+/// The schema's name for the path of an override within an array: "cloud.0.phase.g" → "cloud.phase.g". Where the entry
+/// is the next one, the array grows by it.
+std::string Settings::overriddenName(const ArraySection& array, const std::string& path) {
+    const std::size_t entry = entryIndex(array, path);
+    std::size_t& count = entries_.try_emplace(std::string(array.name), 0).first->second;
+    if (entry > count) {
+        throw InputError(fmt::format("there is no {}.{}", array.name, count), "--set " + path,
+                         fmt::format("the next one is {}.{}", array.name, count));
+    }
+    count = std::max(count, entry + 1);
+    return std::string(array.name) + path.substr(array.name.size() + 1 + indexIn(array, path).size());
+}
+
+std::optional<std::size_t> Settings::entries(std::string_view array) const {
+    const auto it = entries_.find(array);
+    return it == entries_.end() ? std::nullopt : std::optional(it->second);
 }
 
 const Setting* Settings::find(const std::string& path) const {
@@ -124,12 +140,14 @@ const Setting* Settings::find(const std::string& path) const {
 
 void Settings::collect(const toml::node& node, const std::string& path, const std::string& name, const Origin& origin) {
     if (const Key* key = findKey(name)) {
-        put(path, {key, &node, origin.where(node, path), !origin.source.empty()});
+        const ArraySection* array = arrayOf(path);
+        const std::size_t entry = array == nullptr ? 0 : std::stoul(std::string(indexIn(*array, path)));
+        put(path, {key, &node, origin.where(node, path), !origin.source.empty(), entry});
         return;
     }
     if (!isSection(name)) unknownKey(name, origin.where(node, path));
-    if (path == "cloud") {
-        collectClouds(node, origin);
+    if (const ArraySection* array = arrayOf(path); array != nullptr && path == array->name) {
+        collectEntries(*array, node, origin);
         return;
     }
     const toml::table* table = node.as_table();
@@ -142,31 +160,35 @@ void Settings::collect(const toml::node& node, const std::string& path, const st
     }
 }
 
-void Settings::collectClouds(const toml::node& node, const Origin& origin) {
-    const toml::array* clouds = node.as_array();
-    if (clouds == nullptr) {
-        throw InputError(fmt::format("cloud must be an array of tables, got {}", nodeTypeText(node)),
-                         origin.where(node, "cloud"), "write [[cloud]] with two brackets");
+void Settings::collectEntries(const ArraySection& array, const toml::node& node, const Origin& origin) {
+    const std::string name(array.name);
+    const toml::array* entries = node.as_array();
+    if (entries == nullptr) {
+        throw InputError(fmt::format("{} must be an array of tables, got {}", name, nodeTypeText(node)),
+                         origin.where(node, name), fmt::format("write [[{}]] with two brackets", name));
     }
-    if (clouds->size() > 1) {
-        throw InputError("this version renders one cloud a scene", origin.where(*clouds->get(1), "cloud.1"),
-                         "leave the other clouds out");
+    if (entries->size() > array.most) {
+        throw InputError(std::string(array.limit),
+                         origin.where(*entries->get(array.most), fmt::format("{}.{}", name, array.most)),
+                         "leave the others out");
     }
-    clouds_ = clouds->size();
-    for (const toml::node& cloud : *clouds) {
-        if (!cloud.is_table()) {
-            throw InputError(fmt::format("a cloud must be a table, got {}", nodeTypeText(cloud)),
-                             origin.where(cloud, "cloud.0"), "write [[cloud]] and its keys below");
+    entries_[name] = entries->size();
+    std::size_t index = 0;
+    for (const toml::node& entry : *entries) {
+        const std::string path = fmt::format("{}.{}", name, index++);
+        if (!entry.is_table()) {
+            throw InputError(fmt::format("a {} must be a table, got {}", array.entry, nodeTypeText(entry)),
+                             origin.where(entry, path), fmt::format("write [[{}]] and its keys below", name));
         }
-        for (const auto& [key, child] : *cloud.as_table()) {
-            collect(child, "cloud.0." + std::string(key.str()), "cloud." + std::string(key.str()), origin);
+        for (const auto& [key, child] : *entry.as_table()) {
+            collect(child, path + "." + std::string(key.str()), name + "." + std::string(key.str()), origin);
         }
     }
 }
 
 void Settings::put(const std::string& path, Setting setting) {
     if (!setting.fromFile) {
-        for (const std::string& other : alternativesOf(path)) {
+        for (const std::string& other : alternativesOf(path, setting.key->name)) {
             const Setting* replaced = find(other);
             if (replaced != nullptr && replaced->fromFile) settings_.erase(other);
         }

@@ -2,11 +2,13 @@
 
 #include <toml++/toml.h>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "scene/arrays.h"
 #include "scene/schema.h"
 
 namespace lumulus::scene {
@@ -17,6 +19,7 @@ struct Setting {
     const toml::node* node = nullptr;  ///< lives in the Settings
     std::string where;                 ///< "scenes/x.toml:14, cloud.0.albedo" or "--set cloud.0.albedo"
     bool fromFile = true;
+    std::size_t entry = 0;  ///< of the array section that it stands in
 };
 
 /// All keys that the file and the overrides give, by path ("cloud.0.albedo"); overrides replace the file's.
@@ -30,18 +33,19 @@ class Settings {
 
     const std::map<std::string, Setting>& all() const { return settings_; }
     const Setting* find(const std::string& path) const;
-    /// Number of [[cloud]] entries; absent where nothing is said about clouds.
-    std::optional<std::size_t> clouds() const { return clouds_; }
+    /// Number of entries of an array section; absent where nothing is said about it.
+    std::optional<std::size_t> entries(std::string_view array) const;
 
   private:
     struct Origin;
     void collect(const toml::node& node, const std::string& path, const std::string& name, const Origin& origin);
-    void collectClouds(const toml::node& node, const Origin& origin);
+    void collectEntries(const ArraySection& array, const toml::node& node, const Origin& origin);
+    std::string overriddenName(const ArraySection& array, const std::string& path);
     void put(const std::string& path, Setting setting);
 
     std::deque<toml::table> documents_;  // a deque: nodes stay where they are
     std::map<std::string, Setting> settings_;
-    std::optional<std::size_t> clouds_;
+    std::map<std::string, std::size_t, std::less<>> entries_;  ///< by array section
 };
 
 }  // namespace lumulus::scene

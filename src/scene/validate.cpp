@@ -21,9 +21,11 @@ std::string whereOf(const Settings& settings, std::initializer_list<const char*>
 }
 
 void checkAlternatives(const Settings& settings) {
-    for (const auto& [a, b] : alternatives) {
-        if (settings.find(std::string(a)) != nullptr && settings.find(std::string(b)) != nullptr) {
-            throw InputError(fmt::format("{} and {} exclude each other", a, b), settings.find(std::string(b))->where,
+    for (const auto& [path, setting] : settings.all()) {
+        for (const auto& [a, b] : alternatives) {
+            const std::string other = siblingPath(path, b);
+            if (setting.key->name != a || settings.find(other) == nullptr) continue;
+            throw InputError(fmt::format("{} and {} exclude each other", path, other), settings.find(other)->where,
                              "give one of them");
         }
     }
@@ -84,6 +86,37 @@ void checkPhase(const Phase& phase, const Settings& settings) {
     check("cloud.0.phase.droplet_diameter", readsDiameter, "droplet");
 }
 
+void finishMedium(FogMedium& medium, std::size_t index, const Settings& settings) {
+    const std::string path = fmt::format("fog.media.{}.", index);
+    const Setting* kind = settings.find(path + "kind");
+    const auto check = [&](const char* key, MediumKind reader, const char* kindName) {
+        const Setting* given = settings.find(path + key);
+        if (given == nullptr || medium.kind == reader) return;
+        if (given->fromFile && kind != nullptr && !kind->fromFile) return;
+        throw InputError(fmt::format("{} has no effect: the medium is not of the kind \"{}\"", key, kindName),
+                         given->where, fmt::format("leave it out, or write kind = \"{}\"", kindName));
+    };
+    for (const char* key : {"falloff", "direction", "offset"}) check(key, MediumKind::exponential, "exponential");
+    for (const char* key : {"center", "radius"}) check(key, MediumKind::sphere, "sphere");
+    const double length = glm::length(medium.direction);
+    if (!(length > 1e-12)) {
+        throw InputError("direction must have a length", whereOf(settings, {(path + "direction").c_str()}),
+                         "give a direction towards thinner fog, as [0, 1, 0]");
+    }
+    medium.direction /= length;
+}
+
+void checkFog(const Fog& fog, const Settings& settings) {
+    if (fog.filterSize % 2 != 0) {
+        throw InputError(fmt::format("filter_size must be 2, 4 or 6, got {}", fog.filterSize),
+                         whereOf(settings, {"fog.filter_size"}), "leave it out for 4");
+    }
+    if (fog.near == fog.far) {
+        throw InputError("near and far are the same distance", whereOf(settings, {"fog.far", "fog.near"}),
+                         "give the distances where the z-buffer is 0 and 1");
+    }
+}
+
 void checkCloudFile(const Cloud& cloud, const Settings& settings) {
     if (cloud.vdb.empty()) return;
     std::error_code ec;
@@ -106,6 +139,8 @@ Scene finishScene(Draft draft, const Settings& settings) {
         checkPhase(cloud.phase, settings);
         checkCloudFile(cloud, settings);
     }
+    checkFog(draft.scene.fog, settings);
+    for (std::size_t i = 0; i < draft.scene.fog.media.size(); ++i) finishMedium(draft.scene.fog.media[i], i, settings);
     return std::move(draft.scene);
 }
 

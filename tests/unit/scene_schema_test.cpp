@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "scene/arrays.h"
 #include "scene/document.h"
 #include "scene/load.h"
 #include "scene/schema.h"
@@ -21,21 +22,31 @@ using testing::HasSubstr;
 
 /// What a key needs beside it to have an effect.
 std::string companionOf(const Key& key) {
-    return key.name == "cloud.phase.droplet_diameter" ? "phase.model = \"droplet\"\n" : "";
+    const std::string_view name = key.name.substr(key.name.rfind('.') + 1);
+    if (name == "droplet_diameter") return "phase.model = \"droplet\"\n";
+    if (name == "falloff" || name == "direction" || name == "offset") return "kind = \"exponential\"\n";
+    if (name == "center" || name == "radius") return "kind = \"sphere\"\n";
+    return "";
+}
+
+/// The line that begins the key's section (the entry, in an array) and the path to it.
+std::pair<std::string, std::string> sectionOf(const Key& key) {
+    if (const ArraySection* array = arrayOf(key.name))
+        return {fmt::format("[[{}]]\n", array->name), std::string(array->name)};
+    const std::string section(key.name.substr(0, key.name.find('.')));
+    return {fmt::format("[{}]\n", section), section};
 }
 
 /// `key = value` in its section.
 std::string documentOf(const Key& key, const std::string& value) {
-    const std::size_t dot = key.name.find('.');
-    const std::string section(key.name.substr(0, dot));
-    const std::string rest(key.name.substr(dot + 1));
-    const std::string head = section == "cloud" ? "[[cloud]]" : "[" + section + "]";
-    return fmt::format("{}\n{} = {}\n{}", head, rest, value, companionOf(key));
+    const auto [head, section] = sectionOf(key);
+    return fmt::format("{}{} = {}\n{}", head, key.name.substr(section.size() + 1), value, companionOf(key));
 }
 
 std::string pathOf(const Key& key) {
-    const std::string name(key.name);
-    return name.starts_with("cloud.") ? "cloud.0." + name.substr(6) : name;
+    const ArraySection* array = arrayOf(key.name);
+    if (array == nullptr) return std::string(key.name);
+    return fmt::format("{}.0{}", array->name, key.name.substr(array->name.size()));
 }
 
 std::string messageOf(const std::string& toml) {
@@ -55,7 +66,7 @@ TEST_P(EveryKey, DocumentedDefaultIsTheDefault) {
         EXPECT_TRUE(key.fallback.ends_with(')'));
         return;
     }
-    const std::string without = companionOf(key).empty() ? "" : "[[cloud]]\n" + companionOf(key);
+    const std::string without = sectionOf(key).first + companionOf(key);
     EXPECT_EQ(parseScene(documentOf(key, std::string(key.fallback)), "x.toml"), parseScene(without, "x.toml"));
 }
 
@@ -170,7 +181,7 @@ TEST(Suggest, NearestKey) {
     EXPECT_EQ(suggestKey("cloud.albdeo"), "did you mean \"albedo\"?");
     EXPECT_EQ(suggestKey("cloud.g"), "did you mean cloud.phase.g?");
     EXPECT_EQ(suggestKey("image.zzzzzz"), "the keys of image are exposure, height, width");
-    EXPECT_THAT(suggestKey("zzzzzz"), HasSubstr("the sections are camera, cloud, draw, image"));
+    EXPECT_THAT(suggestKey("zzzzzz"), HasSubstr("the sections are camera, cloud, draw, fog, image"));
 }
 
 TEST(Suggest, EditDistance) {

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lumulus::cli {
+
+struct CompositeOptions {
+    std::filesystem::path color;                 ///< .exr with R, G, B
+    std::filesystem::path depth;                 ///< .exr with Z or depth.Z; empty: the colour's file
+    std::filesystem::path scene;                 ///< camera and fog
+    std::vector<std::filesystem::path> outputs;  ///< .exr (linear) and .png (tone mapped)
+    std::vector<std::string> overrides;
+    std::string device;
+    std::string stats;  ///< file, "-" for stdout, empty for none
+    bool validate = false;
+};
+
+/// `lumulus composite`: a picture of any renderer as seen through the fog of a scene. Without media it is the picture.
+/// Errors: InputError before any work for bad usage, scenes, pictures and places that cannot be written to.
+void runComposite(const CompositeOptions& options);
+
+}  // namespace lumulus::cli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace lumulus::scene {
+
+/// A section that stands in two brackets, once for each entry.
+struct ArraySection {
+    std::string_view name;   ///< "fog.media", as in the names of keys
+    std::string_view entry;  ///< what one entry is called in messages
+    std::size_t most;        ///< entries of a scene
+    std::string_view limit;  ///< what is said of one entry more
+};
+
+inline constexpr std::array<ArraySection, 2> arraySections{{
+    {"cloud", "cloud", 1, "this version renders one cloud a scene"},
+    {"fog.media", "medium", 256, "a scene has at most 256 media"},
+}};
+
+/// The array section that is `path` or that `path` lies in, or null.
+inline const ArraySection* arrayOf(std::string_view path) {
+    const auto it = std::ranges::find_if(arraySections, [&](const ArraySection& array) {
+        return path.starts_with(array.name) && (path.size() == array.name.size() || path[array.name.size()] == '.');
+    });
+    return it == arraySections.end() ? nullptr : &*it;
+}
+
+/// The index in a path of the array section `array`: "12" in "fog.media.12.g".
+inline std::string_view indexIn(const ArraySection& array, std::string_view path) {
+    const std::string_view rest = path.substr(std::min(path.size(), array.name.size() + 1));
+    return rest.substr(0, rest.find('.'));
+}
+
+}  // namespace lumulus::scene

@@ -1,0 +1,4 @@
+lumulus_test(fog_test
+  SOURCES ${CMAKE_CURRENT_LIST_DIR}/fog_depth_test.cpp ${CMAKE_CURRENT_LIST_DIR}/fog_media_test.cpp
+          ${CMAKE_CURRENT_LIST_DIR}/fog_pyramid_test.cpp
+  LINK lumulus_fog)
