@@ -28,11 +28,19 @@ bool survives(glm::dvec3& throughput, double share, Random& random) {
     return largest(throughput) > 0.0;
 }
 
+/// The part of the ray within the medium's box and before `limit` metres.
+std::optional<Interval> clipped(const Medium& medium, const VoxelRay& ray, double limit) {
+    std::optional<Interval> inside = medium.clip(ray);
+    if (!inside || !(inside->begin < limit)) return std::nullopt;
+    inside->end = std::min(inside->end, limit);
+    return inside;
+}
+
 }  // namespace
 
 double ratioTrack(const Medium& medium, const MajorantGrid& majorants, const VoxelRay& ray, Random& random,
-                  double weight, double threshold) {
-    const std::optional<Interval> inside = medium.clip(ray);
+                  double weight, double threshold, double limit) {
+    const std::optional<Interval> inside = clipped(medium, ray, limit);
     if (!inside) return weight;
     majorants.walk(ray, *inside, random, [&](double t, double majorant) {
         weight *= std::max(0.0, 1.0 - medium.extinctionScale() * medium.density(ray.at(t)) / majorant);
@@ -47,6 +55,7 @@ double ratioTrack(const Medium& medium, const MajorantGrid& majorants, const Vox
 PathTracer::PathTracer(const scene::Scene& scene, const vdb::Volume* volume, Majorant majorant, const glm::dvec3& eye)
     : fog_(scene.fog, eye),
       surfaces_(scene.surfaces),
+      lamps_(scene.surfaces),
       inscattering_(scene.fog.inscattering),
       sky_(scene.sky.radiance),
       sunDirection_(glm::normalize(scene.sun.directionTo)) {
@@ -65,9 +74,8 @@ PathTracer::PathTracer(const scene::Scene& scene, const vdb::Volume* volume, Maj
 }
 
 std::optional<double> PathTracer::cloudCollision(const VoxelRay& ray, double limit, Random& random) const {
-    std::optional<Interval> inside = cloud_->medium.clip(ray);
-    if (!inside || !(inside->begin < limit)) return std::nullopt;
-    inside->end = std::min(inside->end, limit);
+    const std::optional<Interval> inside = clipped(cloud_->medium, ray, limit);
+    if (!inside) return std::nullopt;
     bool collided = false;
     double metres = 0.0;
     cloud_->majorants.walk(ray, *inside, random, [&](double t, double majorant) {
@@ -101,6 +109,7 @@ PathTracer::Event PathTracer::nextEvent(const Vertex& vertex, const glm::dvec3& 
 void PathTracer::arrive(Vertex& vertex, const Event& event) const {
     vertex.place = event.place;
     vertex.index = event.index;
+    vertex.arrived = vertex.ray.direction;
     vertex.ray.origin += event.metres * vertex.ray.direction;
     vertex.voxel.origin = vertex.voxel.at(event.metres);
     if (event.place == Place::surface) {
@@ -136,18 +145,48 @@ void PathTracer::turn(Vertex& vertex, Random& random) const {
         vertex.ray.direction = turned(vertex.normal, 1.0 - std::sqrt(random.uniform()), random);
     } else {
         const PhaseFunction& phase = vertex.place == Place::fog ? fog_.phase(vertex.index) : cloud_->phase;
-        vertex.ray.direction = turned(vertex.ray.direction, phase.sample(random), random);
+        vertex.ray.direction = turned(vertex.arrived, phase.sample(random), random);
     }
     if (cloud_) vertex.voxel.step = cloud_->medium.stepOf(vertex.ray.direction);
 }
 
-/// Share of light from the sun that goes on along the path, 1/sr: a phase function, or cosine over π.
-double PathTracer::response(const Vertex& vertex, const glm::dvec3& toSun) const {
+/// Share of light that goes on along the path, 1/sr: a phase function, or cosine over π. It is also the density with
+/// which `turn` draws that direction.
+double PathTracer::response(const Vertex& vertex, const glm::dvec3& toLight) const {
     if (vertex.place == Place::surface) {
-        return std::max(0.0, glm::dot(vertex.normal, toSun)) * glm::one_over_pi<double>();
+        return std::max(0.0, glm::dot(vertex.normal, toLight)) * glm::one_over_pi<double>();
     }
     const PhaseFunction& phase = vertex.place == Place::fog ? fog_.phase(vertex.index) : cloud_->phase;
-    return phase.evaluate(oneMinusCosBetween(vertex.ray.direction, toSun));
+    return phase.evaluate(oneMinusCosBetween(vertex.arrived, toLight));
+}
+
+/// What the surface gives off that a path from `vertex` meets by chance, less the share of `lampLight`.
+glm::dvec3 PathTracer::emissionAt(const Vertex& vertex, const Event& event) const {
+    const glm::dvec3& emission = surfaces_[event.index].emission;
+    if (lamps_.empty() || vertex.place == Place::eye) return emission;
+    const double chance = response(vertex, vertex.ray.direction);
+    const double aimed = lamps_.density(vertex.ray.origin, event.index);
+    return chance > 0.0 ? emission * (chance / (chance + aimed)) : glm::dvec3(0.0);
+}
+
+/// Light of a lamp that is aimed at, on its way to the vertex and on along the path.
+glm::dvec3 PathTracer::lampLight(const Vertex& vertex, Random& random) const {
+    const glm::dvec3& point = vertex.ray.origin;
+    const std::optional<LampSample> lamp = lamps_.sample(point, random);
+    if (!lamp) return glm::dvec3(0.0);
+    const double chance = response(vertex, lamp->direction);
+    if (!(chance > 0.0)) return glm::dvec3(0.0);
+    const Ray shadow{point, lamp->direction};
+    const std::optional<SurfaceHit> hit = surfaces_.nearest(shadow, vertex.surface());
+    if (!hit || hit->surface != lamp->surface) return glm::dvec3(0.0);
+    double weight = chance / (chance + lamp->density);
+    if (cloud_) {
+        const VoxelRay voxel{vertex.voxel.origin, cloud_->medium.stepOf(lamp->direction)};
+        weight = ratioTrack(cloud_->medium, cloud_->majorants, voxel, random, weight, 0.0, hit->metres);
+    }
+    glm::dvec3 light = weight * surfaces_[lamp->surface].emission;
+    if (!fog_.empty()) light *= fog_.transmittance(shadow, hit->metres);
+    return light;
 }
 
 glm::dvec3 PathTracer::sunTransmission(const Vertex& vertex, double strength, Random& random) const {
@@ -186,12 +225,13 @@ PathSample PathTracer::trace(const Ray& ray, Random& random) const {
             }
             return sample;
         }
+        if (event.place == Place::surface) sample.radiance += throughput * emissionAt(vertex, event);
         arrive(vertex, event);
-        if (event.place == Place::surface) sample.radiance += throughput * surfaces_[event.index].emission;
         if (event.place != Place::fog && !scatter(vertex, throughput, random)) return sample;
         if (sunny_ && isLit(vertex)) {
             sample.radiance += throughput * sunFluence_ * sunTransmission(vertex, largest(throughput), random);
         }
+        if (!lamps_.empty()) sample.radiance += throughput * lampLight(vertex, random);
         turn(vertex, random);
     }
     sample.lost = true;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "reference/fog.h"
+#include "reference/lamps.h"
 #include "reference/majorant.h"
 #include "reference/medium.h"
 #include "reference/phase.h"
@@ -24,9 +25,9 @@ struct PathSample {
 
 /// Transmittance of the medium along the ray, an unbiased estimate by ratio tracking (Novák et al. 2014): the weight,
 /// `weight` at the start, falls at each tentative collision by the share of null ones; below `threshold` Russian
-/// roulette lifts it back to the threshold or ends it at 0.
+/// roulette lifts it back to the threshold or ends it at 0. Up to `limit` metres.
 double ratioTrack(const Medium& medium, const MajorantGrid& majorants, const VoxelRay& ray, Random& random,
-                  double weight, double threshold);
+                  double weight, double threshold, double limit = std::numeric_limits<double>::infinity());
 
 /// What a ray meets, without noise.
 struct RayIntegrals {
@@ -37,7 +38,8 @@ struct RayIntegrals {
 
 /// The unbiased path tracer of one cloud, analytic fog and opaque surfaces under the sun and a constant sky: delta
 /// tracking in the cloud and exact free paths in the fog, whichever is nearer, next-event estimation to the sun's disc
-/// at each collision (ratio tracking through the cloud, closed form through the fog), the sky where a path escapes, the
+/// at each collision (ratio tracking through the cloud, closed form through the fog), to spheres that give off light
+/// too, weighted against meeting them by chance (Veach 1997, the balance heuristic), the sky where a path escapes, the
 /// emission of surfaces and fog where a path meets them, any number of scatterings. Immutable; any number of threads
 /// may trace.
 class PathTracer {
@@ -73,6 +75,7 @@ class PathTracer {
     struct Vertex {
         Place place = Place::eye;
         std::size_t index = Surfaces::none;  ///< of the surface, or of the fog's medium
+        glm::dvec3 arrived{0.0};             ///< direction of the path up to here
         Ray ray;                             ///< from here on, in the world
         VoxelRay voxel;                      ///< the same for the cloud, where there is one
         glm::dvec3 normal{0.0};              ///< of the surface, on the side that is lit
@@ -94,13 +97,16 @@ class PathTracer {
                   Random& random) const;
     bool scatter(const Vertex& vertex, glm::dvec3& throughput, Random& random) const;
     void turn(Vertex& vertex, Random& random) const;
-    double response(const Vertex& vertex, const glm::dvec3& toSun) const;
+    double response(const Vertex& vertex, const glm::dvec3& toLight) const;
+    glm::dvec3 emissionAt(const Vertex& vertex, const Event& event) const;
+    glm::dvec3 lampLight(const Vertex& vertex, Random& random) const;
     glm::dvec3 sunTransmission(const Vertex& vertex, double strength, Random& random) const;
     bool isLit(const Vertex& vertex) const { return vertex.place != Place::fog || inscattering_; }
 
     std::optional<Cloud> cloud_;
     Fog fog_;
     Surfaces surfaces_;
+    Lamps lamps_;
     bool inscattering_;  ///< the fog scatters light that comes to it straight from sun and sky
     glm::dvec3 sky_;
     glm::dvec3 sunDirection_;

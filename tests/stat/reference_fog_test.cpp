@@ -226,24 +226,36 @@ TEST(ReferenceFog, ChannelsDoNotMix) {
     }
 }
 
-/// A white lamp of radius r gives π L 4π r² to fog that absorbs nothing: as much leaves the fog at its border R, where
-/// the mean over the cosine is L r²/R².
+/// A white lamp of radius r gives π L 4π r² to what absorbs nothing, fog or cloud: as much leaves at any radius R
+/// around it, where the mean over the cosine is L r²/R².
+void expectLampsEnergy(scene::Scene scene, double lampRadius, double outside, const vdb::Volume* volume) {
+    scene.surfaces = {wall(0.0, dvec3(1.0))};
+    scene.surfaces[0].kind = scene::SurfaceKind::sphere;
+    scene.surfaces[0].radius = lampRadius;
+    scene.surfaces[0].albedo = dvec3(1.0);
+    const auto enter = [&](Random& random) {
+        const dvec3 outwards = turned({0.0, 0.0, 1.0}, 2.0 * random.uniform(), random);
+        return Ray{outside * outwards, turned(-outwards, 1.0 - std::sqrt(random.uniform()), random)};
+    };
+    const dvec3 expected(lampRadius * lampRadius / (outside * outside));
+    const Seen found = seenBy(scene, 100'000, enter, volume);
+    EXPECT_LT(found.channel[0].standardError(), 0.05 * expected.x);
+    found.expectNear(expected, "lamp");
+}
+
 TEST(ReferenceFog, EnergyOfALampLeavesTheFog) {
-    constexpr double radius = 20.0;
     for (const double scattering : {0.002, 0.03}) {
-        scene::Scene scene = fogScene(dvec3(scattering), dvec3(0.0), 0.6);
-        scene.surfaces = {wall(0.0, dvec3(1.0))};
-        scene.surfaces[0].kind = scene::SurfaceKind::sphere;
-        scene.surfaces[0].radius = radius;
-        scene.surfaces[0].albedo = dvec3(1.0);
-        const auto enter = [](Random& random) {
-            return Ray{{0.0, 0.0, reach}, turned({0.0, 0.0, -1.0}, 1.0 - std::sqrt(random.uniform()), random)};
-        };
-        const dvec3 expected(radius * radius / (reach * reach));
-        const Seen found = seenBy(scene, 100'000, enter);
-        EXPECT_LT(found.channel[0].standardError(), 0.05 * expected.x);
-        found.expectNear(expected, "lamp");
+        expectLampsEnergy(fogScene(dvec3(scattering), dvec3(0.0), 0.6), 20.0, reach, nullptr);
     }
+}
+
+TEST(ReferenceFog, EnergyOfALampLeavesACloud) {
+    const vdb::Volume ball = ballVolume(16, 10.0);
+    scene::Scene scene = fogScene(dvec3(0.01), dvec3(0.0), 0.6);
+    scene.fog.skyDistance = 15.0;
+    scene.clouds.resize(1);
+    scene.clouds[0].extinction = 0.2;
+    expectLampsEnergy(scene, 4.0, 20.0, &ball);
 }
 
 /// Cloud and fog in one another: both only absorb, and their transmittances multiply.

@@ -112,6 +112,32 @@ TEST(ReferenceSurface, LightGoesToAndFro) {
     expectNear(found, albedo / (1.0 - albedo * albedo), error);
 }
 
+/// A ball of radiance L at distance d gives E = π L R²/d² cos on a plane below its horizon (the view factor of a ball),
+/// and is one among other lamps.
+TEST(ReferenceSurface, ALampLightsAPlane) {
+    scene::Scene scene = emptyScene();
+    const dvec3 middles[] = {{3.0, 10.0, -4.0}, {10.0, 5.0, 0.0}, {-200.0, 300.0, 100.0}};
+    const dvec3 lights[] = {dvec3(1.0, 2.0, 3.0), dvec3(5.0, 0.0, 1.0), dvec3(1e5)};
+    const double radii[] = {4.0, 0.5, 1.0};
+    dvec3 expected(0.0);
+    for (int i = 0; i < 3; ++i) {
+        scene::Surface& lamp = scene.surfaces.emplace_back();
+        lamp.kind = scene::SurfaceKind::sphere;
+        lamp.position = middles[i];
+        lamp.radius = radii[i];
+        lamp.emission = lights[i];
+        lamp.albedo = dvec3(0.0);
+        const dvec3 way = middles[i] - dvec3(3.0, 0.0, -4.0);
+        const double distance = glm::length(way);
+        expected += albedo * lights[i] * (radii[i] * radii[i] / (distance * distance)) * (way.y / distance);
+    }
+    dvec3 error;
+    const Ray ray{{3.0, 5.0, -4.0}, {0.0, -1.0, 0.0}};
+    const dvec3 found = meanRadiance(scene, ray, 60'000, error);
+    EXPECT_LT(error.y, 0.01 * expected.y);
+    expectNear(found, expected, error);
+}
+
 /// A cloud before a glowing plane, and its shadow on a plane that does not glow.
 TEST(ReferenceSurface, CloudsDimSurfacesAndAreHiddenByThem) {
     scene::Scene scene = emptyScene();
