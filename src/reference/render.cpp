@@ -114,8 +114,8 @@ Renderer::Sample Renderer::sample(int x, int y) const {
 }
 
 bool Renderer::pass(const Continue& goOn) {
-    // bands of about this many paths: under a second between two questions whether to stop
-    constexpr int bandPaths = 1 << 15;
+    // bands of about this many paths: under a second between two questions whether to stop, and some in dense fog
+    const int bandPaths = tracer_.hasFog() ? 1 << 12 : 1 << 15;
     const int rows = std::clamp(bandPaths / film_.width, 1, film_.height);
     for (int begin = 0; begin < film_.height; begin += rows) {
         const int end = std::min(begin + rows, film_.height);

@@ -11,6 +11,10 @@ namespace {
 /// A path that scatters more often is counted as lost: far beyond what any sane scene needs.
 constexpr int collisionLimit = 100'000'000;
 
+/// The same in fog, which may reach to the sky and absorb nothing: light that went so far astray is a share of some
+/// 1e-3 where visibility is a hundredth of the way to the sky, and more in fog that no tracer sees the end of.
+constexpr int fogCollisionLimit = 100'000;
+
 /// [1/sr] Below this product of throughput, phase function and transmittance a shadow ray plays Russian roulette: most
 /// light of a forward lobe comes with few of them. Best on the Disney cloud between .02 and .1.
 constexpr double shadowThreshold = 0.05;
@@ -214,7 +218,8 @@ PathSample PathTracer::trace(const Ray& ray, Random& random) const {
     Vertex vertex;
     vertex.ray = ray;
     if (cloud_) vertex.voxel = cloud_->medium.toVoxel(ray);
-    for (int collisions = 0; collisions < collisionLimit; ++collisions) {
+    const int limit = fog_.empty() ? collisionLimit : fogCollisionLimit;
+    for (int collisions = 0; collisions < limit; ++collisions) {
         const Event event = nextEvent(vertex, throughput, random);
         if (!fog_.empty() && !crossFog(vertex, event, sample.radiance, throughput, random)) return sample;
         if (event.place == Place::sky) {

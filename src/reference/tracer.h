@@ -60,6 +60,7 @@ class PathTracer {
     glm::dvec3 discRadiance(const glm::dvec3& direction) const;
 
     const glm::dvec3& sky() const { return sky_; }
+    bool hasFog() const { return !fog_.empty(); }
 
   private:
     struct Cloud {

@@ -293,6 +293,54 @@ TEST(ReferenceFog, CloudAndFogMix) {
     EXPECT_NEAR(halves.channel[0].mean(), whole.channel[0].mean(), 4.0 * error + 0.01 * whole.channel[0].mean());
 }
 
+/// Fog that nobody sees the end of is given up, and counted, in bounded time.
+TEST(ReferenceFog, EndlessWhiteFogIsGivenUp) {
+    scene::Scene scene = fogScene(dvec3(4.0), dvec3(0.0), 0.0);
+    scene.fog.skyDistance = 1e5;
+    scene.sky.radiance = dvec3(1.0);
+    const PathTracer tracer(scene, nullptr, Majorant::global);
+    Random random(13, 0, 0);
+    for (int i = 0; i < 3; ++i) {
+        const PathSample sample = tracer.trace(ahead, random);
+        EXPECT_TRUE(sample.lost);
+        EXPECT_EQ(sample.radiance, dvec3(0.0));
+    }
+}
+
+/// From vacuum-like to solid, straight and far away: every number stays finite, and none is negative.
+TEST(ReferenceFog, ExtremesStayFinite) {
+    scene::FogMedium layer;
+    layer.kind = scene::MediumKind::exponential;
+    scene::FogMedium ball = sphereMedium({1e6, 0.0, 0.0}, 100.0, dvec3(0.0));
+    Random random(14, 0, 0);
+    for (const double falloff : {1e-9, 1e-3, 10.0, 1e3}) {
+        for (const double visibility : {1.0, 1e3, 1e6}) {
+            for (const double g : {0.0, -0.5, 0.9999}) {
+                scene::Scene scene = fogScene(dvec3(0.0), dvec3(0.0), 0.0);
+                layer.falloff = falloff;
+                layer.g = ball.g = g;
+                layer.scattering = ball.scattering = 3.912 / visibility * dvec3(0.5, 0.1, 0.9);
+                layer.absorption = ball.absorption = 3.912 / visibility * dvec3(0.5, 0.9, 0.0);
+                layer.emission = ball.emission = dvec3(1e-3);
+                scene.fog = {.skyDistance = 1e5, .media = {layer, ball}};
+                scene.sun.irradiance = dvec3(1e5);
+                scene.sky.radiance = dvec3(1.0);
+                const PathTracer tracer(scene, nullptr, Majorant::global, {0.0, 1e4, 0.0});
+                for (const dvec3& direction : {dvec3(0.0, 1.0, 0.0), dvec3(0.0, -1.0, 0.0), dvec3(1.0, 0.0, 0.0)}) {
+                    const Ray ray{{0.0, 1e4, 0.0}, direction};
+                    const PathSample sample = tracer.trace(ray, random);
+                    const dvec3 through = tracer.integrate(ray).transmittance;
+                    for (int c = 0; c < 3; ++c) {
+                        EXPECT_TRUE(std::isfinite(sample.radiance[c]) && sample.radiance[c] >= 0.0);
+                        EXPECT_TRUE(std::isfinite(sample.passed[c]) && sample.passed[c] >= 0.0);
+                        EXPECT_TRUE(through[c] >= 0.0 && through[c] <= 1.0);
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Fog without in-scattering shows nothing of sun and sky but what comes straight, by surfaces or by clouds.
 TEST(ReferenceFog, InscatteringCanBeLeftOut) {
     scene::Scene scene = fogScene(dvec3(0.02), dvec3(0.0), 0.5);
