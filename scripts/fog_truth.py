@@ -4,10 +4,10 @@
 
 All surfaces give off light and reflect none, so that the filter is given exactly what the fog is given. Each depth is
 rendered without the light that the fog scatters in from sun and sky, which the filters do not model
-(fog.inscattering = false), and with it. Prints tables in Markdown; FOLDER gets the EXR files (references that are there
-already are kept) and fog-truth.png: for each depth the truth, what the default filter makes of the clear picture, their
-difference in hue, saturation and brightness (as red, green and blue, white is 20 %), the truth with sun and sky in the
-fog and the filter's difference from that.
+(fog.inscattering = false), and with it. Prints tables in Markdown; FOLDER gets the EXR files (a second run goes on with
+the references that are there) and fog-truth.png: for each depth the truth, what the first filter makes of the clear
+picture, their difference in hue, saturation and brightness (as red, green and blue; white is 20 %), the truth with sun
+and sky in the fog, and the filter's difference from that.
 
     scripts/fog_truth.py FOLDER [--spp 256] [--width 192] [--filters scatter,masked,naive,gather]
 
@@ -77,24 +77,20 @@ class Runs:
         self.folder.mkdir(parents=True, exist_ok=True)
         self.scene = self.folder / f"scene-{wanted.width}.toml"
         self.scene.write_text(scene_text(wanted.width))
+        self.clear = self.reference("clear", 64, 1, ["fog.media=[]"])[1]
 
     def run(self, command, name, arguments, settings):
         path = self.folder / f"{name}-{self.wanted.width}.exr"
-        if command == "composite" or not path.exists():
-            sets = [word for setting in settings for word in ("--set", setting)]
-            print("making", path.name, file=sys.stderr, flush=True)
-            subprocess.run([self.wanted.lumulus, command, *arguments, "-o", path, *sets], check=True,
-                           stderr=subprocess.DEVNULL)
+        sets = [word for setting in settings for word in ("--set", setting)]
+        print("making", path.name, file=sys.stderr, flush=True)
+        subprocess.run([self.wanted.lumulus, command, *arguments, "-o", path, *sets], check=True)
         width, height, layers, _ = read_exr(path)
         picture = numpy.stack([numpy.array(layers[c]) for c in "RGB"], axis=-1)
         return picture.reshape(height, width, 3), path
 
     def reference(self, name, spp, seed, settings):
-        name = f"{name}-{spp}-{seed}"
-        return self.run("reference", name, [self.scene, "--spp", str(spp), "--seed", str(seed), "--quiet"], settings)
-
-    def clear(self):
-        return self.reference("clear", 64, 1, ["fog.media=[]"])[1]
+        arguments = [self.scene, "--spp", str(spp), "--seed", str(seed), "--resume", "--quiet"]
+        return self.run("reference", f"{name}-{seed}", arguments, settings)
 
     def truths(self, depth, inscattering):
         """Two independent references."""
@@ -103,7 +99,7 @@ class Runs:
         return [self.reference(name, self.wanted.spp, seed, settings)[0] for seed in (1, 2)]
 
     def composite(self, name, settings):
-        return self.run("composite", name, ["--color", self.clear(), "--scene", self.scene], settings)[0]
+        return self.run("composite", name, ["--color", self.clear, "--scene", self.scene], settings)[0]
 
     def filtered(self, depth, kind):
         return self.composite(f"{kind}-{depth}", [f"fog.media.0.scattering={depth / DISTANCE}", f"fog.filter={kind}"])
