@@ -46,6 +46,15 @@ int bandRows(const Camera& camera) {
     return std::max(1, std::min(tiles, most)) * shared::TILE_EDGE;
 }
 
+/// The scene, if all that is in it can be drawn.
+const scene::Scene& drawable(const scene::Scene& scene) {
+    if (!scene.surfaces.empty()) {
+        throw InputError("surfaces are for the reference alone", scene.source + ", surface",
+                         "use lumulus reference, or leave them out: --set surface=[]");
+    }
+    return scene;
+}
+
 void addTime(std::vector<PassTime>& times, const gpu::PassTime& pass) {
     const auto known = std::find_if(times.begin(), times.end(), [&](const PassTime& t) { return t.name == pass.name; });
     if (known == times.end())
@@ -138,7 +147,7 @@ void Renderer::State::preparePhotons() {
 }
 
 Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
-    : state_(std::make_unique<State>(scene, options)) {
+    : state_(std::make_unique<State>(drawable(scene), options)) {
     State& s = *state_;
     s.statistics.device = s.context.device().name;
     if (!scene.fog.media.empty()) s.fog.emplace(s.context, scene.fog);

@@ -123,7 +123,8 @@ void runReference(const ReferenceOptions& options) {
     if (samples == 0) throw Error("interrupted before the first sample of every pixel", "", "nothing was written");
     write(options, scene, renderer);
     if (renderer.film().lost > 0)
-        logWarning(fmt::format("{} paths were lost: they scattered too often", renderer.film().lost));
+        logWarning(fmt::format("{} paths were lost: they scattered too often{}", renderer.film().lost,
+                               scene.fog.media.empty() ? "" : " (a smaller fog.sky_distance bounds the fog)"));
     if (interrupted()) logWarning(fmt::format("interrupted: the picture has {} samples per pixel", samples));
 }
 

@@ -29,16 +29,22 @@ glm::dvec3 varianceOfMean(const glm::dvec3& square, const glm::dvec3& mean, doub
     return glm::mix(glm::dvec3(0.0), variance / (n - 1.0), glm::greaterThan(variance, rounding * square));
 }
 
+/// Of the three channels: the very number where they are the same.
+double meanOf(const glm::dvec3& rgb) {
+    return rgb.x + ((rgb.y - rgb.x) + (rgb.z - rgb.x)) / 3.0;
+}
+
 void putLines(const Film& film, LayeredImage& image) {
     const auto count = static_cast<double>(std::bit_width(film.samples));  // powers of two up to the samples
     const Layers transmittance = layersOf(image, "transmittance.");
     float* alpha = image.layer("A").data();
     float* depth = image.layer("depth.Z").data();
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-        const double collided = count - film.pixels[i].transmittance;
-        put(transmittance, i, glm::dvec3(film.pixels[i].transmittance / count));
-        alpha[i] = static_cast<float>(collided / count);
-        depth[i] = static_cast<float>(collided > 0.0 ? film.pixels[i].distance / collided : farDepth);
+        const PixelSums& sums = film.pixels[i];
+        put(transmittance, i, sums.transmittance / count);
+        alpha[i] = static_cast<float>((count - meanOf(sums.transmittance)) / count);
+        const double hidden = count - sums.clear;
+        depth[i] = static_cast<float>(hidden > 0.0 ? sums.distance / hidden : farDepth);
     }
 }
 

@@ -12,13 +12,14 @@ namespace lumulus::reference {
 /// What the samples of one pixel add up to, in double. The sums are taken in the order of the samples, so that they are
 /// the same bits however the work is divided.
 struct PixelSums {
-    glm::dvec3 scattered{0.0};  ///< radiance that the cloud scattered
-    glm::dvec3 square{0.0};     ///< squares of the whole radiance
-    double passed = 0.0;        ///< samples that saw the sky directly
-    double disc = 0.0;          ///< transmittance of the samples that look at the sun's disc
-    double discSamples = 0.0;   ///< how many look there
-    double transmittance = 0.0;
-    double distance = 0.0;  ///< ∫ t T σt dt, metres
+    glm::dvec3 scattered{0.0};      ///< radiance of all but the sky and sun directly behind
+    glm::dvec3 square{0.0};         ///< squares of the whole radiance
+    glm::dvec3 passed{0.0};         ///< weights of the sky directly behind
+    glm::dvec3 disc{0.0};           ///< transmittance of the samples that look at the sun's disc
+    double discSamples = 0.0;       ///< how many look there
+    glm::dvec3 transmittance{0.0};  ///< of cloud, fog and surfaces
+    double clear = 0.0;             ///< transmittance of cloud and surfaces alone
+    double distance = 0.0;          ///< to cloud and surfaces, weighted by what they hide: ∫ t T σt dt, metres
 
     bool operator==(const PixelSums&) const = default;
 };
@@ -41,12 +42,13 @@ inline bool isLineSample(std::uint64_t sample) {
     return std::has_single_bit(sample + 1);
 }
 
-/// Depth of a pixel without a cloud, metres.
+/// Depth of a pixel without cloud and surface, metres.
 constexpr double farDepth = 1e10;
 
-/// The means as layers: R, G, B, A, cloud.{R,G,B}, transmittance.{R,G,B}, depth.Z, from two samples on
-/// variance.{R,G,B} (of the mean, not of a sample), and sun.disc, the share of the pixel that the sun's disc covers,
-/// where it is in the picture. `sky` and `disc` are radiances. At least one sample.
+/// The means as layers: R, G, B, A, cloud.{R,G,B} (all light but the sky and sun directly behind),
+/// transmittance.{R,G,B} (of cloud, fog and surfaces; A is 1 less their mean), depth.Z (of cloud and surfaces; fog has
+/// no depth), from two samples on variance.{R,G,B} (of the mean, not of a sample), and sun.disc, the share of the pixel
+/// that the sun's disc covers, where it is in the picture. `sky` and `disc` are radiances. At least one sample.
 LayeredImage picture(const Film& film, const glm::dvec3& sky, const glm::dvec3& disc);
 
 }  // namespace lumulus::reference

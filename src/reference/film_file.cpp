@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 /// What stands before the sums. Doubles and integers as the machine keeps them: the file belongs to this machine.
 struct Header {
-    char magic[16] = "lumulus sums 1\n";
+    char magic[16] = "lumulus sums 2\n";
     std::uint64_t fingerprint = 0;
     std::int64_t width = 0, height = 0;
     std::uint64_t samples = 0, lost = 0;

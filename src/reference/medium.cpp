@@ -116,10 +116,12 @@ std::optional<Interval> Medium::clip(const VoxelRay& ray) const {
     return interval;
 }
 
-LineIntegrals integrateAlong(const Medium& medium, const VoxelRay& ray) {
+LineIntegrals integrateAlong(const Medium& medium, const VoxelRay& ray, double limit) {
     LineIntegrals result;
     constexpr double gauss = 0.28867513459481287;  // 1/(2√3)
-    eachPiece(medium, ray, [&](const Interval& piece) {
+    eachPiece(medium, ray, [&](const Interval& whole) {
+        const Interval piece{whole.begin, std::min(whole.end, limit)};
+        if (!(piece.begin < limit)) return false;
         const double length = piece.end - piece.begin, middle = 0.5 * (piece.begin + piece.end);
         const double tau =
             0.5 * length * medium.extinctionScale() *

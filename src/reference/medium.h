@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -90,8 +91,10 @@ struct LineIntegrals {
 };
 
 /// Integrals along the ray without noise: between voxel centres the trilinear density is a cubic polynomial in t, which
-/// Gauss's two points integrate exactly; the distance takes σt as constant within each such piece.
-LineIntegrals integrateAlong(const Medium& medium, const VoxelRay& ray);
+/// Gauss's two points integrate exactly; the distance takes σt as constant within each such piece. Up to `limit`
+/// metres.
+LineIntegrals integrateAlong(const Medium& medium, const VoxelRay& ray,
+                             double limit = std::numeric_limits<double>::infinity());
 
 /// Metres from the ray's origin to where it first meets a density above 0; absent where it meets none.
 std::optional<double> frontAlong(const Medium& medium, const VoxelRay& ray);

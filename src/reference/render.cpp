@@ -31,6 +31,24 @@ void addCamera(Fingerprint& print, const Camera& camera) {
     for (int axis = 0; axis < 3; ++axis) addVector(print, camera.axes[axis]);
 }
 
+void addFog(Fingerprint& print, const scene::Fog& fog) {
+    print.add(fog.skyDistance).add(static_cast<int>(fog.inscattering));
+    for (const scene::FogMedium& medium : fog.media) {
+        print.add(medium.kind).add(medium.g).add(medium.falloff).add(medium.radius);
+        for (const glm::dvec3& v :
+             {medium.scattering, medium.absorption, medium.emission, medium.direction, medium.offset, medium.center}) {
+            addVector(print, v);
+        }
+    }
+}
+
+void addSurface(Fingerprint& print, const scene::Surface& surface) {
+    print.add(surface.kind).add(surface.radius);
+    for (const glm::dvec3& v : {surface.position, surface.normal, surface.albedo, surface.emission}) {
+        addVector(print, v);
+    }
+}
+
 std::uint64_t fingerprintOf(const scene::Scene& scene, const vdb::Volume* volume, const Camera& camera,
                             Majorant majorant, std::uint64_t seed) {
     Fingerprint print;
@@ -40,14 +58,16 @@ std::uint64_t fingerprintOf(const scene::Scene& scene, const vdb::Volume* volume
     addVector(print, scene.sky.radiance);
     addCamera(print, camera);
     if (volume != nullptr && !scene.clouds.empty()) addCloud(print, scene.clouds.front(), *volume);
+    if (!scene.fog.media.empty()) addFog(print, scene.fog);
+    for (const scene::Surface& surface : scene.surfaces) addSurface(print, surface);
     return print.value();
 }
 
 }  // namespace
 
 Renderer::Renderer(const scene::Scene& scene, const vdb::Volume* volume, Majorant majorant, std::uint64_t seed)
-    : tracer_(scene, volume, majorant),
-      camera_(makeCamera(scene.camera, scene.image, volume != nullptr ? boundsOf(*volume) : Bounds{})),
+    : camera_(makeCamera(scene.camera, scene.image, volume != nullptr ? boundsOf(*volume) : Bounds{})),
+      tracer_(scene, volume, majorant, camera_.position),
       discRadiance_(tracer_.discRadiance(scene.sun.directionTo)),
       seed_(seed),
       fingerprint_(fingerprintOf(scene, volume, camera_, majorant, seed)) {
@@ -72,15 +92,20 @@ Renderer::Sample Renderer::sample(int x, int y) const {
     Sample result;
     result.lost = path.lost;
     result.sums.scattered = path.radiance;
-    result.sums.passed = path.passed ? 1.0 : 0.0;
+    result.sums.passed = path.passed;
     const bool atDisc = tracer_.discRadiance(ray.direction) != glm::dvec3(0.0);
     const bool forLines = isLineSample(film_.samples);
     if (atDisc || forLines) {
-        const LineIntegrals line = tracer_.integrate(ray);
-        result.sums.transmittance = forLines ? line.transmittance : 0.0;
-        result.sums.distance = forLines ? line.distance : 0.0;
-        result.sums.disc = atDisc ? line.transmittance : 0.0;
-        result.sums.discSamples = atDisc ? 1.0 : 0.0;
+        const RayIntegrals line = tracer_.integrate(ray);
+        if (forLines) {
+            result.sums.transmittance = line.transmittance;
+            result.sums.clear = line.clear;
+            result.sums.distance = line.distance;
+        }
+        if (atDisc) {
+            result.sums.disc = line.transmittance;
+            result.sums.discSamples = 1.0;
+        }
     }
     const glm::dvec3 radiance =
         result.sums.scattered + result.sums.passed * tracer_.sky() + result.sums.disc * discRadiance_;
@@ -89,8 +114,8 @@ Renderer::Sample Renderer::sample(int x, int y) const {
 }
 
 bool Renderer::pass(const Continue& goOn) {
-    // bands of about this many paths: under a second between two questions whether to stop
-    constexpr int bandPaths = 1 << 15;
+    // bands of about this many paths: under a second between two questions whether to stop, and some in dense fog
+    const int bandPaths = tracer_.hasFog() ? 1 << 12 : 1 << 15;
     const int rows = std::clamp(bandPaths / film_.width, 1, film_.height);
     for (int begin = 0; begin < film_.height; begin += rows) {
         const int end = std::min(begin + rows, film_.height);
@@ -108,6 +133,7 @@ bool Renderer::pass(const Continue& goOn) {
         sums.disc += added.disc;
         sums.discSamples += added.discSamples;
         sums.transmittance += added.transmittance;
+        sums.clear += added.clear;
         sums.distance += added.distance;
         film_.lost += pass_[i].lost ? 1 : 0;
     }

@@ -32,7 +32,7 @@ class Renderer {
     std::uint64_t fingerprint() const { return fingerprint_; }
 
     /// The layers of the film (at least one sample), and depth.front: metres along the ray through the pixel's middle
-    /// to the nearest point where there is cloud, farDepth where there is none.
+    /// to the nearest point where there is cloud or a surface, farDepth where there is none.
     LayeredImage picture() const;
 
   private:
@@ -44,8 +44,8 @@ class Renderer {
 
     Sample sample(int x, int y) const;
 
-    PathTracer tracer_;
     Camera camera_;
+    PathTracer tracer_;
     glm::dvec3 discRadiance_;
     std::uint64_t seed_;
     std::uint64_t fingerprint_;

@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <limits>
 
 namespace lumulus::reference {
 namespace {
 
 /// A path that scatters more often is counted as lost: far beyond what any sane scene needs.
 constexpr int collisionLimit = 100'000'000;
+
+/// The same in fog, which may reach to the sky and absorb nothing: light that went so far astray is a share of some
+/// 1e-3 where visibility is a hundredth of the way to the sky, and more in fog that no tracer sees the end of.
+constexpr int fogCollisionLimit = 100'000;
 
 /// [1/sr] Below this product of throughput, phase function and transmittance a shadow ray plays Russian roulette: most
 /// light of a forward lobe comes with few of them. Best on the Disney cloud between .02 and .1.
@@ -18,11 +23,28 @@ double largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
+/// Russian roulette by the share of light that was not absorbed; false where the path ends.
+bool survives(glm::dvec3& throughput, double share, Random& random) {
+    if (share < 1.0) {
+        if (random.uniform() >= share) return false;
+        throughput /= share;
+    }
+    return largest(throughput) > 0.0;
+}
+
+/// The part of the ray within the medium's box and before `limit` metres.
+std::optional<Interval> clipped(const Medium& medium, const VoxelRay& ray, double limit) {
+    std::optional<Interval> inside = medium.clip(ray);
+    if (!inside || !(inside->begin < limit)) return std::nullopt;
+    inside->end = std::min(inside->end, limit);
+    return inside;
+}
+
 }  // namespace
 
 double ratioTrack(const Medium& medium, const MajorantGrid& majorants, const VoxelRay& ray, Random& random,
-                  double weight, double threshold) {
-    const std::optional<Interval> inside = medium.clip(ray);
+                  double weight, double threshold, double limit) {
+    const std::optional<Interval> inside = clipped(medium, ray, limit);
     if (!inside) return weight;
     majorants.walk(ray, *inside, random, [&](double t, double majorant) {
         weight *= std::max(0.0, 1.0 - medium.extinctionScale() * medium.density(ray.at(t)) / majorant);
@@ -34,8 +56,13 @@ double ratioTrack(const Medium& medium, const MajorantGrid& majorants, const Vox
     return weight;
 }
 
-PathTracer::PathTracer(const scene::Scene& scene, const vdb::Volume* volume, Majorant majorant)
-    : sky_(scene.sky.radiance), sunDirection_(glm::normalize(scene.sun.directionTo)) {
+PathTracer::PathTracer(const scene::Scene& scene, const vdb::Volume* volume, Majorant majorant, const glm::dvec3& eye)
+    : fog_(scene.fog, eye),
+      surfaces_(scene.surfaces),
+      lamps_(scene.surfaces),
+      inscattering_(scene.fog.inscattering),
+      sky_(scene.sky.radiance),
+      sunDirection_(glm::normalize(scene.sun.directionTo)) {
     const double radius = 0.5 * glm::radians(scene.sun.angularDiameter);
     sunCone_ = 2.0 * std::sin(0.5 * radius) * std::sin(0.5 * radius);
     // irradiance counts the disc's points by the cosine to its middle: E = L π sin²; the fluence does not: L 2π(1 −
@@ -50,72 +77,196 @@ PathTracer::PathTracer(const scene::Scene& scene, const vdb::Volume* volume, Maj
     cloud_.emplace(Cloud{medium, MajorantGrid(medium, majorant), PhaseFunction(cloud.phase), cloud.albedo});
 }
 
-bool PathTracer::scatter(glm::dvec3& throughput, Random& random) const {
-    throughput *= cloud_->albedo;
-    const double survival = largest(cloud_->albedo);
-    if (survival < 1.0) {
-        if (random.uniform() >= survival) return false;
-        throughput /= survival;
-    }
-    return largest(throughput) > 0.0;
+std::optional<double> PathTracer::cloudCollision(const VoxelRay& ray, double limit, Random& random) const {
+    const std::optional<Interval> inside = clipped(cloud_->medium, ray, limit);
+    if (!inside) return std::nullopt;
+    bool collided = false;
+    double metres = 0.0;
+    cloud_->majorants.walk(ray, *inside, random, [&](double t, double majorant) {
+        const double extinction = cloud_->medium.extinctionScale() * cloud_->medium.density(ray.at(t));
+        collided = random.uniform() * majorant < extinction;
+        metres = t;
+        return collided;
+    });
+    return collided ? std::optional(metres) : std::nullopt;
 }
 
-double PathTracer::sunTransmission(const glm::dvec3& point, const glm::dvec3& direction, double strength,
-                                   Random& random) const {
+PathTracer::Event PathTracer::nextEvent(const Vertex& vertex, const glm::dvec3& throughput, Random& random) const {
+    Event event;
+    if (!surfaces_.empty()) {
+        const auto hit = surfaces_.nearest(vertex.ray, vertex.surface());
+        if (hit) event = {Place::surface, hit->metres, hit->surface};
+    }
+    if (!fog_.empty()) {
+        if (const auto collision = fog_.collide(vertex.ray, event.metres, throughput, random)) {
+            event = {Place::fog, collision->metres, collision->medium};
+        }
+    }
+    if (cloud_) {
+        if (const auto metres = cloudCollision(vertex.voxel, event.metres, random)) {
+            event = {Place::cloud, *metres, Surfaces::none};
+        }
+    }
+    return event;
+}
+
+void PathTracer::arrive(Vertex& vertex, const Event& event) const {
+    vertex.place = event.place;
+    vertex.index = event.index;
+    vertex.arrived = vertex.ray.direction;
+    vertex.ray.origin += event.metres * vertex.ray.direction;
+    vertex.voxel.origin = vertex.voxel.at(event.metres);
+    if (event.place == Place::surface) {
+        vertex.normal = surfaces_.normalAgainst(vertex.ray.direction, vertex.ray.origin, event.index);
+    }
+}
+
+/// The way through the fog to the event: emission on it, and what is left of the throughput at its end (after a
+/// collision with fog, of what that scatters); false where the path ends.
+bool PathTracer::crossFog(const Vertex& vertex, const Event& event, glm::dvec3& radiance, glm::dvec3& throughput,
+                          Random& random) const {
+    radiance += fog_.emitted(vertex.ray, event.metres, throughput, random);
+    if (event.place != Place::fog) {
+        throughput = fog_.passed(vertex.ray, event.metres, throughput);
+        return true;
+    }
+    const glm::dvec3 scattered = fog_.scattered(vertex.ray, {event.metres, event.index}, throughput);
+    const double share = (scattered.x + scattered.y + scattered.z) / (throughput.x + throughput.y + throughput.z);
+    throughput = scattered;
+    return survives(throughput, share, random);
+}
+
+/// What is left after a collision with cloud or surface; false where the path ends.
+bool PathTracer::scatter(const Vertex& vertex, glm::dvec3& throughput, Random& random) const {
+    const glm::dvec3& albedo = vertex.place == Place::surface ? surfaces_[vertex.index].albedo : cloud_->albedo;
+    throughput *= albedo;
+    return survives(throughput, largest(albedo), random);
+}
+
+/// Towards where the path goes on, drawn by the phase function, or the cosine of a diffuse surface.
+void PathTracer::turn(Vertex& vertex, Random& random) const {
+    if (vertex.place == Place::surface) {
+        vertex.ray.direction = turned(vertex.normal, 1.0 - std::sqrt(random.uniform()), random);
+    } else {
+        const PhaseFunction& phase = vertex.place == Place::fog ? fog_.phase(vertex.index) : cloud_->phase;
+        vertex.ray.direction = turned(vertex.arrived, phase.sample(random), random);
+    }
+    if (cloud_) vertex.voxel.step = cloud_->medium.stepOf(vertex.ray.direction);
+}
+
+/// Share of light that goes on along the path, 1/sr: a phase function, or cosine over π. It is also the density with
+/// which `turn` draws that direction.
+double PathTracer::response(const Vertex& vertex, const glm::dvec3& toLight) const {
+    if (vertex.place == Place::surface) {
+        return std::max(0.0, glm::dot(vertex.normal, toLight)) * glm::one_over_pi<double>();
+    }
+    const PhaseFunction& phase = vertex.place == Place::fog ? fog_.phase(vertex.index) : cloud_->phase;
+    return phase.evaluate(oneMinusCosBetween(vertex.arrived, toLight));
+}
+
+/// What the surface gives off that a path from `vertex` meets by chance, less the share of `lampLight`.
+glm::dvec3 PathTracer::emissionAt(const Vertex& vertex, const Event& event) const {
+    const glm::dvec3& emission = surfaces_[event.index].emission;
+    if (lamps_.empty() || vertex.place == Place::eye) return emission;
+    const double chance = response(vertex, vertex.ray.direction);
+    const double aimed = lamps_.density(vertex.ray.origin, event.index);
+    return chance > 0.0 ? emission * (chance / (chance + aimed)) : glm::dvec3(0.0);
+}
+
+/// Light of a lamp that is aimed at, on its way to the vertex and on along the path.
+glm::dvec3 PathTracer::lampLight(const Vertex& vertex, Random& random) const {
+    const glm::dvec3& point = vertex.ray.origin;
+    const std::optional<LampSample> lamp = lamps_.sample(point, random);
+    if (!lamp) return glm::dvec3(0.0);
+    const double chance = response(vertex, lamp->direction);
+    if (!(chance > 0.0)) return glm::dvec3(0.0);
+    const Ray shadow{point, lamp->direction};
+    const std::optional<SurfaceHit> hit = surfaces_.nearest(shadow, vertex.surface());
+    if (!hit || hit->surface != lamp->surface) return glm::dvec3(0.0);
+    double weight = chance / (chance + lamp->density);
+    if (cloud_) {
+        const VoxelRay voxel{vertex.voxel.origin, cloud_->medium.stepOf(lamp->direction)};
+        weight = ratioTrack(cloud_->medium, cloud_->majorants, voxel, random, weight, 0.0, hit->metres);
+    }
+    glm::dvec3 light = weight * surfaces_[lamp->surface].emission;
+    if (!fog_.empty()) light *= fog_.transmittance(shadow, hit->metres);
+    return light;
+}
+
+glm::dvec3 PathTracer::sunTransmission(const Vertex& vertex, double strength, Random& random) const {
     const double oneMinusCos = sunCone_ * random.uniform();
     const glm::dvec3 toSun = sunCone_ > 0.0 ? turned(sunDirection_, oneMinusCos, random) : sunDirection_;
-    double weight = cloud_->phase.evaluate(oneMinusCosBetween(direction, toSun));
+    double weight = response(vertex, toSun);
     const double threshold = shadowThreshold / strength;
     if (weight < threshold) {
-        if (random.uniform() * threshold >= weight) return 0.0;
+        if (random.uniform() * threshold >= weight) return glm::dvec3(0.0);
         weight = threshold;
     }
-    const VoxelRay shadow{point, cloud_->medium.stepOf(toSun)};
-    return ratioTrack(cloud_->medium, cloud_->majorants, shadow, random, weight, threshold);
+    const Ray shadow{vertex.ray.origin, toSun};
+    if (surfaces_.block(shadow, vertex.surface())) return glm::dvec3(0.0);
+    if (cloud_) {
+        const VoxelRay voxel{vertex.voxel.origin, cloud_->medium.stepOf(toSun)};
+        weight = ratioTrack(cloud_->medium, cloud_->majorants, voxel, random, weight, threshold);
+    }
+    if (fog_.empty()) return glm::dvec3(weight);
+    return weight * fog_.transmittance(shadow, std::numeric_limits<double>::infinity());
 }
 
 PathSample PathTracer::trace(const Ray& ray, Random& random) const {
     PathSample sample;
-    sample.passed = true;
-    if (!cloud_) return sample;
-    glm::dvec3 direction = ray.direction;
     glm::dvec3 throughput(1.0);
-    VoxelRay path = cloud_->medium.toVoxel(ray);
-    for (int collisions = 0; collisions < collisionLimit; ++collisions) {
-        const std::optional<Interval> inside = cloud_->medium.clip(path);
-        bool collided = false;
-        if (inside) {
-            cloud_->majorants.walk(path, *inside, random, [&](double t, double majorant) {
-                const glm::dvec3 point = path.at(t);
-                const double extinction = cloud_->medium.extinctionScale() * cloud_->medium.density(point);
-                collided = random.uniform() * majorant < extinction;
-                if (collided) path.origin = point;
-                return collided;
-            });
-        }
-        if (!collided) {
-            if (!sample.passed) sample.radiance += throughput * sky_;
+    Vertex vertex;
+    vertex.ray = ray;
+    if (cloud_) vertex.voxel = cloud_->medium.toVoxel(ray);
+    const int limit = fog_.empty() ? collisionLimit : fogCollisionLimit;
+    for (int collisions = 0; collisions < limit; ++collisions) {
+        const Event event = nextEvent(vertex, throughput, random);
+        if (!fog_.empty() && !crossFog(vertex, event, sample.radiance, throughput, random)) return sample;
+        if (event.place == Place::sky) {
+            if (vertex.place == Place::eye) {
+                sample.passed = throughput;
+            } else if (isLit(vertex)) {
+                sample.radiance += throughput * sky_;
+            }
             return sample;
         }
-        sample.passed = false;
-        if (!scatter(throughput, random)) return sample;
-        if (sunny_) {
-            sample.radiance +=
-                throughput * sunFluence_ * sunTransmission(path.origin, direction, largest(throughput), random);
+        if (event.place == Place::surface) sample.radiance += throughput * emissionAt(vertex, event);
+        arrive(vertex, event);
+        if (event.place != Place::fog && !scatter(vertex, throughput, random)) return sample;
+        if (sunny_ && isLit(vertex)) {
+            sample.radiance += throughput * sunFluence_ * sunTransmission(vertex, largest(throughput), random);
         }
-        direction = turned(direction, cloud_->phase.sample(random), random);
-        path.step = cloud_->medium.stepOf(direction);
+        if (!lamps_.empty()) sample.radiance += throughput * lampLight(vertex, random);
+        turn(vertex, random);
     }
     sample.lost = true;
     return sample;
 }
 
-LineIntegrals PathTracer::integrate(const Ray& ray) const {
-    return cloud_ ? integrateAlong(cloud_->medium, cloud_->medium.toVoxel(ray)) : LineIntegrals{};
+RayIntegrals PathTracer::integrate(const Ray& ray) const {
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    RayIntegrals result;
+    const auto hit = surfaces_.nearest(ray, Surfaces::none);
+    if (cloud_) {
+        const LineIntegrals line =
+            integrateAlong(cloud_->medium, cloud_->medium.toVoxel(ray), hit ? hit->metres : endless);
+        result.clear = line.transmittance;
+        result.distance = line.distance;
+    }
+    if (hit) {
+        result.distance += result.clear * hit->metres;
+        result.clear = 0.0;
+    }
+    result.transmittance = glm::dvec3(result.clear);
+    if (!fog_.empty()) result.transmittance *= fog_.transmittance(ray, endless);
+    return result;
 }
 
 std::optional<double> PathTracer::front(const Ray& ray) const {
-    return cloud_ ? frontAlong(cloud_->medium, cloud_->medium.toVoxel(ray)) : std::nullopt;
+    std::optional<double> metres;
+    if (cloud_) metres = frontAlong(cloud_->medium, cloud_->medium.toVoxel(ray));
+    const auto hit = surfaces_.nearest(ray, Surfaces::none);
+    return hit && !(metres && *metres < hit->metres) ? hit->metres : metres;
 }
 
 glm::dvec3 PathTracer::discRadiance(const glm::dvec3& direction) const {

@@ -15,9 +15,10 @@ struct ArraySection {
     std::string_view limit;  ///< what is said of one entry more
 };
 
-inline constexpr std::array<ArraySection, 2> arraySections{{
+inline constexpr std::array<ArraySection, 3> arraySections{{
     {"cloud", "cloud", 1, "this version renders one cloud a scene"},
     {"fog.media", "medium", 256, "a scene has at most 256 media"},
+    {"surface", "surface", 256, "a scene has at most 256 surfaces"},
 }};
 
 /// The array section that is `path` or that `path` lies in, or null.

@@ -38,6 +38,7 @@ struct Fog {
     double separation = 1.0;              ///< masked: strength of the separation of bright near pixels
     double separationLevel = 0.7;         ///< masked: share of the level at which separated pixels are read
     double skyDistance = 1e5;             ///< metres: fog ends there
+    bool inscattering = true;             ///< reference: light straight from sun and sky is scattered too
     FogDepth depth = FogDepth::distance;  ///< what the depth file of `lumulus composite` holds
     double near = 0.1, far = 1000.0;      ///< metres, of a z-buffer
     std::vector<FogMedium> media;         ///< empty: no fog

@@ -28,6 +28,7 @@ constexpr std::array fogFilters{FogFilter::scatter, FogFilter::masked, FogFilter
 constexpr std::array fogFetches{FogFetch::bilinear, FogFetch::linearBicubic, FogFetch::cubicBicubic};
 constexpr std::array fogDepths{FogDepth::distance, FogDepth::planar, FogDepth::zbuffer};
 constexpr std::array mediumKinds{MediumKind::homogeneous, MediumKind::exponential, MediumKind::sphere};
+constexpr std::array surfaceKinds{SurfaceKind::plane, SurfaceKind::sphere, SurfaceKind::disc};
 
 Key number(Text name, Range range, Text fallback, Text documentation, Setter set) {
     return {name, Type::number, range, {}, fallback, documentation, set};
@@ -55,6 +56,10 @@ Cloud& cloudOf(Draft& d) {
 
 FogMedium& mediumOf(Draft& d) {
     return d.scene.fog.media.at(d.entry);
+}
+
+Surface& surfaceOf(Draft& d) {
+    return d.scene.surfaces.at(d.entry);
 }
 
 std::vector<Key> imageAndCameraKeys() {
@@ -207,6 +212,10 @@ std::vector<Key> fogKeys() {
         number("fog.sky_distance", {0.0, 1e9, true}, "100000.0",
                "Metres: what is farther, the sky too, is seen through this much of the fog.",
                [](Draft& d, const Value& v) { d.scene.fog.skyDistance = v.number; }),
+        other("fog.inscattering", Type::boolean, "true",
+              "For `lumulus reference`: with `false` the fog scatters the light of surfaces and clouds alone, as the "
+              "filter does, and none that comes to it straight from sun or sky.",
+              [](Draft& d, const Value& v) { d.scene.fog.inscattering = v.boolean; }),
         choice("fog.depth", {"distance", "planar", "zbuffer"}, "\"distance\"",
                "What the depth of `lumulus composite` is: metres along the ray, metres along the view's axis, or a "
                "z-buffer from 0 at `near` to 1 at `far`.",
@@ -264,13 +273,32 @@ std::vector<Key> mediumKeys() {
     };
 }
 
+std::vector<Key> surfaceKeys() {
+    return {
+        choice("surface.kind", {"plane", "sphere", "disc"}, "\"plane\"", "A plane has no end.",
+               [](Draft& d, const Value& v) { surfaceOf(d).kind = surfaceKinds.at(v.choice); }),
+        other("surface.position", Type::vector, "[0.0, 0.0, 0.0]",
+              "Metres: a point of the plane, the middle of a sphere or disc.",
+              [](Draft& d, const Value& v) { surfaceOf(d).position = v.vector; }),
+        other("surface.normal", Type::vector, "[0.0, 1.0, 0.0]", "Of a plane or disc, any length.",
+              [](Draft& d, const Value& v) { surfaceOf(d).normal = v.vector; }),
+        number("surface.radius", {0.0, 1e9, true}, "100.0", "Of a sphere or disc, metres.",
+               [](Draft& d, const Value& v) { surfaceOf(d).radius = v.number; }),
+        rgb("surface.albedo", unit, "0.5",
+            "Share of the light that is reflected, the same in all directions (Lambert).",
+            [](Draft& d, const Value& v) { surfaceOf(d).albedo = v.vector; }),
+        rgb("surface.emission", light, "0.0", "Radiance that it gives off, on both sides, W/(m² sr) per channel.",
+            [](Draft& d, const Value& v) { surfaceOf(d).emission = v.vector; }),
+    };
+}
+
 }  // namespace
 
 const std::vector<Key>& schema() {
     static const std::vector<Key> all = [] {
         std::vector<Key> keys;
         for (const auto& part : {imageAndCameraKeys(), sunAndSkyKeys(), cloudKeys(), phaseKeys(), preparationKeys(),
-                                 photonMapAndDrawKeys(), fogKeys(), mediumKeys()}) {
+                                 photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys()}) {
             keys.insert(keys.end(), part.begin(), part.end());
         }
         return keys;

@@ -52,6 +52,12 @@ struct Reader {
         return static_cast<std::int64_t>(x);
     }
 
+    bool boolean(const toml::node& node) const {
+        const auto* value = node.as_boolean();
+        if (value == nullptr) wrongType(node);
+        return value->get();
+    }
+
     glm::dvec3 vector(const toml::node& node) const {
         const auto* array = node.as_array();
         if (array == nullptr || array->size() != 3) wrongType(node);
@@ -136,6 +142,9 @@ Value readValue(const toml::node& node, const Key& key, const std::string& where
             break;
         case Type::integer:
             value.integer = reader.integer(node);
+            break;
+        case Type::boolean:
+            value.boolean = reader.boolean(node);
             break;
         case Type::vector:
             value.vector = reader.vector(node);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/fog.h"
+#include "scene/surface.h"
 
 /// The scene as values: what the file says, with every default filled in and every value checked at the door.
 /// Units: metres, degrees (angles of the file), W·m⁻² and W·m⁻²·sr⁻¹ per channel, 1/m.
@@ -125,6 +126,7 @@ struct Scene {
     PhotonMap photonMap;
     Draw draw;
     Fog fog;
+    std::vector<Surface> surfaces;
     std::string source;  ///< file name, for messages and the EXR header
 
     bool operator==(const Scene&) const = default;

@@ -40,6 +40,8 @@ std::string typeText(const Key& key) {
             return "a number";
         case Type::integer:
             return "a whole number";
+        case Type::boolean:
+            return "true or false";
         case Type::vector:
             return "[x, y, z]";
         case Type::rgb:

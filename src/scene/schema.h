@@ -12,7 +12,7 @@
 
 namespace lumulus::scene {
 
-enum class Type { number, integer, vector, rgb, matrix, text, path, choice };
+enum class Type { number, integer, boolean, vector, rgb, matrix, text, path, choice };
 
 /// Where numbers (each component of a vector) must lie. NaN and infinity never do.
 struct Range {
@@ -29,6 +29,7 @@ struct Range {
 struct Value {
     double number = 0.0;
     std::int64_t integer = 0;
+    bool boolean = false;
     glm::dvec3 vector{0.0};  ///< also RGB
     glm::dmat4 matrix{1.0};
     std::string text;        ///< also a choice

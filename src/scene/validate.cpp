@@ -86,24 +86,47 @@ void checkPhase(const Phase& phase, const Settings& settings) {
     check("cloud.0.phase.droplet_diameter", readsDiameter, "droplet");
 }
 
-void finishMedium(FogMedium& medium, std::size_t index, const Settings& settings) {
-    const std::string path = fmt::format("fog.media.{}.", index);
-    const Setting* kind = settings.find(path + "kind");
-    const auto check = [&](const char* key, MediumKind reader, const char* kindName) {
+/// An entry of an array whose kind decides which of its keys are read.
+struct Entry {
+    std::string path;  ///< "fog.media.0."
+    std::string name;  ///< "medium"
+    const Settings& settings;
+
+    /// A key that the kind does not read is a mistake, unless --set has replaced the file's kind.
+    void checkRead(const char* key, bool read, const char* kinds) const {
+        const Setting* kind = settings.find(path + "kind");
         const Setting* given = settings.find(path + key);
-        if (given == nullptr || medium.kind == reader) return;
-        if (given->fromFile && kind != nullptr && !kind->fromFile) return;
-        throw InputError(fmt::format("{} has no effect: the medium is not of the kind \"{}\"", key, kindName),
-                         given->where, fmt::format("leave it out, or write kind = \"{}\"", kindName));
-    };
-    for (const char* key : {"falloff", "direction", "offset"}) check(key, MediumKind::exponential, "exponential");
-    for (const char* key : {"center", "radius"}) check(key, MediumKind::sphere, "sphere");
-    const double length = glm::length(medium.direction);
-    if (!(length > 1e-12)) {
-        throw InputError("direction must have a length", whereOf(settings, {(path + "direction").c_str()}),
-                         "give a direction towards thinner fog, as [0, 1, 0]");
+        if (given == nullptr || read || (given->fromFile && kind != nullptr && !kind->fromFile)) return;
+        throw InputError(fmt::format("{} has no effect: the {} is not of the kind {}", key, name, kinds), given->where,
+                         fmt::format("leave it out, or write kind = {}", kinds));
     }
-    medium.direction /= length;
+
+    /// The unit vector of a direction that the key gives.
+    glm::dvec3 unitVector(const char* key, const glm::dvec3& direction) const {
+        const double length = glm::length(direction);
+        if (!(length > 1e-12)) {
+            throw InputError(fmt::format("{} must have a length", key), whereOf(settings, {(path + key).c_str()}),
+                             "give a direction, as [0, 1, 0]");
+        }
+        return direction / length;
+    }
+};
+
+void finishMedium(FogMedium& medium, std::size_t index, const Settings& settings) {
+    const Entry entry{fmt::format("fog.media.{}.", index), "medium", settings};
+    const auto check = [&](const char* key, MediumKind reader, const char* kind) {
+        entry.checkRead(key, medium.kind == reader, kind);
+    };
+    for (const char* key : {"falloff", "direction", "offset"}) check(key, MediumKind::exponential, "\"exponential\"");
+    for (const char* key : {"center", "radius"}) check(key, MediumKind::sphere, "\"sphere\"");
+    medium.direction = entry.unitVector("direction", medium.direction);
+}
+
+void finishSurface(Surface& surface, std::size_t index, const Settings& settings) {
+    const Entry entry{fmt::format("surface.{}.", index), "surface", settings};
+    entry.checkRead("normal", surface.kind != SurfaceKind::sphere, "\"plane\" or \"disc\"");
+    entry.checkRead("radius", surface.kind != SurfaceKind::plane, "\"sphere\" or \"disc\"");
+    surface.normal = entry.unitVector("normal", surface.normal);
 }
 
 void checkFog(const Fog& fog, const Settings& settings) {
@@ -141,6 +164,7 @@ Scene finishScene(Draft draft, const Settings& settings) {
     }
     checkFog(draft.scene.fog, settings);
     for (std::size_t i = 0; i < draft.scene.fog.media.size(); ++i) finishMedium(draft.scene.fog.media[i], i, settings);
+    for (std::size_t i = 0; i < draft.scene.surfaces.size(); ++i) finishSurface(draft.scene.surfaces[i], i, settings);
     return std::move(draft.scene);
 }
 

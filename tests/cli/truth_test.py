@@ -112,6 +112,35 @@ class Reference(CliTest):
             self.assertIn(says, self.one_line(result, 2))
             self.assertEqual(self.picture.read_bytes(), before["a.exr"])
 
+    def test_fog_and_surfaces(self):
+        """An emissive floor under fog that absorbs."""
+        self.path = self.scene("""
+cloud = []
+image = { width = 8, height = 6 }
+camera = { position = [0, 10, 0], target = [0, 0, 0], up = [0, 0, -1] }
+[sun]
+irradiance = 0
+[[surface]]
+albedo = 0
+emission = [1, 2, 3]
+[[fog.media]]
+absorption = 0.05
+""")
+        image = self.reference("--spp", 256)[2]
+        for channel, emission in zip("RGB", (1, 2, 3)):
+            mean, error = image[channel][27], math.sqrt(image[f"variance.{channel}"][27])
+            self.assertAlmostEqual(mean, emission * math.exp(-0.5), delta=4.0 * error + 0.05)
+        self.assertEqual(set(image["A"]), {1.0})
+        self.assertEqual(set(image["transmittance.R"]), {0.0})
+        self.assertTrue(all(10.0 <= depth < 12.0 for depth in image["depth.Z"]))
+        result = self.run_lumulus("reference", self.path, "-o", self.picture, "--resume", "--spp", 300,
+                                  "--set", "surface.0.emission=1")
+        self.assertIn("another scene", self.one_line(result, 2))
+
+    def test_render_refuses_surfaces(self):
+        path = self.scene("[[surface]]\n")
+        self.rejected("render", path, "-o", self.picture, says="surfaces are for the reference alone")
+
     def test_seconds(self):
         start = time.monotonic()
         attributes = self.reference("--seconds", 0.3)[3]

@@ -229,6 +229,63 @@ TEST(Reference, FrontIsThatOfThePixelsMiddle) {
     for (const float value : inside.layers.at("depth.front")) EXPECT_EQ(value, 0.0F) << "from inside";
 }
 
+/// A floor under fog, up to the horizon, and the sky above.
+TEST(Reference, LayersOfFogAndSurfaces) {
+    scene::Scene scene = ballScene();
+    scene.clouds.clear();
+    scene.camera.position = dvec3(0.0, 10.0, 0.0);
+    scene.camera.target = dvec3(0.0, 10.0, -1.0);
+    scene.surfaces.resize(1);
+    scene.fog.skyDistance = 50.0;
+    scene.fog.media.resize(1);
+    scene.fog.media[0].scattering = dvec3(0.01, 0.02, 0.03);
+    Renderer renderer(scene, nullptr, Majorant::global, 1);
+    for (int i = 0; i < 4; ++i) renderer.pass(goOn);
+    const LayeredImage image = renderer.picture();
+    const auto value = [&](const char* layer, int x, int y) {
+        return static_cast<double>(image.layers.at(layer)[static_cast<std::size_t>(y * image.width + x)]);
+    };
+    EXPECT_EQ(value("depth.Z", 3, 2), 1e10) << "fog has no depth";
+    EXPECT_EQ(value("depth.front", 3, 2), 1e10F);
+    EXPECT_NEAR(value("transmittance.R", 3, 2), std::exp(-0.5), 1e-6);
+    EXPECT_NEAR(value("transmittance.B", 3, 2), std::exp(-1.5), 1e-6);
+    EXPECT_NEAR(value("A", 3, 2), 1.0 - (std::exp(-0.5) + std::exp(-1.0) + std::exp(-1.5)) / 3.0, 1e-6);
+    EXPECT_EQ(value("A", 10, 17), 1.0);
+    EXPECT_EQ(value("transmittance.G", 10, 17), 0.0);
+    const Camera camera = makeCamera(scene.camera, scene.image, Bounds{});
+    const double floor = -10.0 / camera.ray(10.5, 17.5).direction.y;
+    EXPECT_NEAR(value("depth.front", 10, 17), floor, 1e-4);
+    EXPECT_NEAR(value("depth.Z", 10, 17), floor, 0.1 * floor);
+}
+
+TEST(Reference, FogAndSurfacesAreInTheFingerprint) {
+    scene::Scene scene = ballScene();
+    scene.clouds.clear();
+    const auto print = [&] { return Renderer(scene, nullptr, Majorant::global, 1).fingerprint(); };
+    std::vector<std::uint64_t> prints{print()};
+    const auto changed = [&](const char* what) {
+        prints.push_back(print());
+        EXPECT_EQ(std::ranges::count(prints, prints.back()), 1) << what;
+    };
+    scene.fog.inscattering = false;
+    EXPECT_EQ(print(), prints.front()) << "without media it changes nothing";
+    scene.fog.media.resize(1);
+    scene.fog.media[0].scattering = dvec3(0.1);
+    changed("medium");
+    scene.fog.inscattering = true;
+    changed("in-scattering");
+    scene.fog.media[0].g = 0.1;
+    changed("g");
+    scene.fog.media[0].emission.y = 0.1;
+    changed("emission of a medium");
+    scene.fog.skyDistance = 10.0;
+    changed("sky distance");
+    scene.surfaces.resize(1);
+    changed("surface");
+    scene.surfaces[0].emission.z = 1.0;
+    changed("emission of a surface");
+}
+
 TEST(Reference, WithoutACloudThereIsSky) {
     scene::Scene scene = ballScene();
     scene.clouds.clear();

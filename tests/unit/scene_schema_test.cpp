@@ -74,7 +74,8 @@ TEST_P(EveryKey, WrongTypeNamesKeyAndLine) {
     const Key& key = GetParam();
     const std::string name(key.name.substr(key.name.rfind('.') + 1));
     const bool takesText = key.type == Type::text || key.type == Type::path || key.type == Type::choice;
-    for (const char* value : {"true", "1979-05-27", "{ a = 1 }", "[]", "[[]]", takesText ? "3" : "\"three\""}) {
+    const char* flag = key.type == Type::boolean ? "1" : "true";
+    for (const char* value : {flag, "1979-05-27", "{ a = 1 }", "[]", "[[]]", takesText ? "3" : "\"three\""}) {
         const std::string message = messageOf(documentOf(key, value));
         EXPECT_THAT(message, HasSubstr(name + " must be ")) << value;
         EXPECT_THAT(message, HasSubstr("(x.toml:2, " + pathOf(key) + ")")) << value;

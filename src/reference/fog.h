@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "draw/camera.h"
+#include "reference/medium.h"
+#include "reference/phase.h"
+#include "reference/random.h"
+#include "scene/fog.h"
+
+namespace lumulus::reference {
+
+/// A collision with a particle of the fog.
+struct FogCollision {
+    double metres = 0.0;
+    std::size_t medium = 0;
+};
+
+/// The fog of a scene, all of its media together, as far as `sky_distance` around the eye. Free paths are exact: each
+/// medium's own first collision by the inverse of its integral, the nearest of them all.
+///
+/// Where extinction differs between channels, a free path is drawn for one of them, chosen by the throughput, and its
+/// density is the mean over that choice (Veach 1997, the balance heuristic): the sum of a throughput's channels never
+/// grows, whatever the coefficients.
+class Fog {
+  public:
+    Fog(const scene::Fog& fog, const glm::dvec3& eye);
+
+    bool empty() const { return media_.empty(); }
+
+    /// RGB, from the ray's origin to `metres` (infinity is allowed).
+    glm::dvec3 transmittance(const Ray& ray, double metres) const;
+
+    /// The first collision of light of this throughput before `limit` metres, if there is one.
+    std::optional<FogCollision> collide(const Ray& ray, double limit, const glm::dvec3& throughput,
+                                        Random& random) const;
+
+    /// The throughput of what came to `metres` without a collision with fog, as `collide` has drawn it.
+    glm::dvec3 passed(const Ray& ray, double metres, const glm::dvec3& throughput) const;
+
+    /// The throughput after the collision, absorption included.
+    glm::dvec3 scattered(const Ray& ray, const FogCollision& collision, const glm::dvec3& throughput) const;
+
+    /// An estimate of what the fog emits towards the ray's origin, W·m⁻²·sr⁻¹: `metres` is where a path ended that
+    /// `collide` drew, or anything nearer stopped.
+    glm::dvec3 emitted(const Ray& ray, double metres, const glm::dvec3& throughput, Random& random) const;
+
+    const PhaseFunction& phase(std::size_t medium) const { return media_[medium].phase; }
+
+  private:
+    struct Part {
+        scene::FogMedium medium;
+        glm::dvec3 extinction;  ///< 1/m at ϱ = 1
+        PhaseFunction phase;
+    };
+
+    Interval reach(const Ray& ray) const;
+    glm::dvec3 opticalDepth(const Ray& ray, double metres) const;
+    glm::dvec3 relativeTransmittance(const Ray& ray, double metres, const glm::dvec3& throughput) const;
+
+    std::vector<Part> media_;
+    glm::dvec3 eye_;
+    double skyDistance_;
+};
+
+}  // namespace lumulus::reference

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "reference/medium.h"
+#include "scene/fog.h"
+
+namespace lumulus::reference {
+
+/// The relative density ϱ of one analytic medium of fog along one ray, within a part of it: its integral P(t) in metres
+/// and the inverse of that. All of it in closed form, in double: nothing is stepped through.
+class FogDensity {
+  public:
+    /// `part`: where on the ray the fog is at all. The ray's direction is a unit vector.
+    FogDensity(const scene::FogMedium& medium, const Ray& ray, const Interval& part);
+
+    /// ∫ ϱ from the ray's origin to `metres`; at most 1e200.
+    double pathTo(double metres) const;
+
+    /// Metres at which the integral reaches `path`; infinity where it never does.
+    double metresTo(double path) const;
+
+  private:
+    void enterExponential(const scene::FogMedium& medium, const Ray& ray);
+    void enterSphere(const scene::FogMedium& medium, const Ray& ray);
+    double exponentialPath(double length) const;
+    double exponentialLength(double path) const;
+    double spherePath(double length) const;
+    double sphereLength(double path) const;
+
+    scene::MediumKind kind_;
+    Interval part_;
+    double exponent_ = 0.0;   ///< exponential: −ln ϱ where the part begins
+    double slope_ = 0.0;      ///< exponential: growth of that exponent, 1/m
+    double closest_ = 0.0;    ///< sphere: metres to the point nearest to the centre
+    double halfChord_ = 0.0;  ///< sphere, metres
+    double radius_ = 1.0;
+};
+
+}  // namespace lumulus::reference

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "draw/camera.h"
+#include "scene/surface.h"
+
+namespace lumulus::reference {
+
+/// What a ray meets first.
+struct SurfaceHit {
+    double metres = 0.0;
+    std::size_t surface = 0;
+};
+
+/// The opaque things of a scene. They are known by their index, so that a ray which leaves one does not meet it again
+/// by rounding: no distance is too small to count.
+class Surfaces {
+  public:
+    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+    explicit Surfaces(const std::vector<scene::Surface>& surfaces) : surfaces_(surfaces) {}
+
+    bool empty() const { return surfaces_.empty(); }
+    const scene::Surface& operator[](std::size_t surface) const { return surfaces_[surface]; }
+
+    /// The nearest one in front of the ray's origin, which lies on the surface `from` (or on none).
+    std::optional<SurfaceHit> nearest(const Ray& ray, std::size_t from) const;
+
+    /// True where the ray meets any.
+    bool block(const Ray& ray, std::size_t from) const { return !surfaces_.empty() && nearest(ray, from).has_value(); }
+
+    /// The unit normal at a point of the surface, on the side that `direction` comes from.
+    glm::dvec3 normalAgainst(const glm::dvec3& direction, const glm::dvec3& point, std::size_t surface) const;
+
+  private:
+    std::vector<scene::Surface> surfaces_;
+};
+
+}  // namespace lumulus::reference
