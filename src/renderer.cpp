@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "cloud/cloud.h"
+#include "draw/bands.h"
 #include "draw/billboards.h"
 #include "draw/camera.h"
 #include "draw/collector_sun.h"
@@ -36,14 +37,6 @@ double largest(const glm::dvec3& v) {
     return std::max(v.x, std::max(v.y, v.z));
 }
 
-/// Rows drawn at once, in whole tiles: few enough that progress and Ctrl-C do not wait long, and 2^18 pixels at most.
-int bandRows(const Camera& camera) {
-    constexpr int bands = 32;
-    const int tiles = (camera.height + bands * shared::TILE_EDGE - 1) / (bands * shared::TILE_EDGE);
-    const int most = (1 << 18) / (camera.width * shared::TILE_EDGE);
-    return std::max(1, std::min(tiles, most)) * shared::TILE_EDGE;
-}
-
 void addTime(std::vector<PassTime>& times, const gpu::PassTime& pass) {
     const auto known = std::find_if(times.begin(), times.end(), [&](const PassTime& t) { return t.name == pass.name; });
     if (known == times.end())
@@ -56,10 +49,15 @@ void addTime(std::vector<PassTime>& times, const gpu::PassTime& pass) {
 
 struct Renderer::State {
     State(const scene::Scene& theScene, const RendererOptions& options)
-        : scene(theScene), report(options.report), context({options.device, options.validation}), commands(context) {}
+        : scene(theScene),
+          report(options.report),
+          progressive(options.progressive),
+          context({options.device, options.validation}),
+          commands(context) {}
 
     scene::Scene scene;
     Report report;
+    bool progressive;
     gpu::Context context;
     gpu::Commands commands;
     Camera camera;
@@ -75,7 +73,8 @@ struct Renderer::State {
     std::optional<draw::Billboards> billboards;
     std::optional<draw::March> march;
 
-    bool sunDrawn = false;  // the sun's depths are up to date
+    bool sunDrawn = false;           // the sun's depths are up to date
+    std::uint64_t fieldPhotons = 0;  // that the light field is as fine as
     Statistics statistics;
 
     bool scatters() const { return largest(medium.albedo) > 0.0; }
@@ -88,8 +87,12 @@ struct Renderer::State {
     void drawCloud(LayeredImage& image);
     void prepareDrawing();
     shared::FieldParams fieldParams() const;
-    void recordLight();
-    void drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params, int firstRow, int rows);
+    void makeLightField(std::uint64_t forPhotons);
+    void recordLight(photon::Part part);
+    void drawLight(photon::Part part);
+    void drawBands(LayeredImage& image, const std::vector<draw::Band>& bands, const Report& told);
+    void drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params, const draw::Band& band);
+    double passSeconds() const;
     glm::dvec3 toVoxel(const glm::dvec3& world) const;
     glm::vec3 eyeVoxel() const;
 };
@@ -126,6 +129,7 @@ void Renderer::State::preparePhotons() {
     options.bands = wanted.bands;
     options.seed = wanted.seed;
     options.memoryBudget = static_cast<std::uint64_t>(std::ldexp(wanted.memoryBudget, 20));
+    options.keepHalves = progressive;
     photons.emplace(context, *cloud, medium, options);
 }
 
@@ -175,7 +179,7 @@ void Renderer::State::prepareDrawing() {
     const draw::DrawFeatures features{!medium.tables.oneTurnH.empty(), scatters() && hasSun(), photons.has_value(),
                                       medium.albedo == glm::dvec3(medium.albedo.x)};
     if (features.sun) sunDepth.emplace(context, *cloud);
-    if (features.photons) lightField.emplace(context, *cloud, static_cast<std::uint64_t>(scene.photonMap.photons));
+    if (features.photons) makeLightField(static_cast<std::uint64_t>(scene.photonMap.photons));
     phase.emplace(context, medium.tables);
     if (scene.draw.mode == scene::DrawMode::billboards) {
         billboards.emplace(context, *cloud, features);
@@ -183,6 +187,12 @@ void Renderer::State::prepareDrawing() {
     } else {
         march.emplace(context, *cloud, features);
     }
+}
+
+void Renderer::State::makeLightField(std::uint64_t forPhotons) {
+    if (fieldPhotons == forPhotons) return;
+    lightField.emplace(context, *cloud, forPhotons);
+    fieldPhotons = forPhotons;
 }
 
 glm::dvec3 Renderer::State::toVoxel(const glm::dvec3& world) const {
@@ -215,7 +225,7 @@ shared::FieldParams Renderer::State::fieldParams() const {
 }
 
 /// Light in the cloud as this view sees it; the sun's depths only once.
-void Renderer::State::recordLight() {
+void Renderer::State::recordLight(photon::Part part) {
     if (sunDepth && !sunDrawn) {
         sunDepth->record(commands, -scene.sun.directionTo, medium.extinction);
         if (collectorSun) {
@@ -225,20 +235,20 @@ void Renderer::State::recordLight() {
         sunDrawn = true;
     }
     if (photons) {
-        photons->reconstruct(commands, eyeVoxel());
+        photons->reconstruct(commands, eyeVoxel(), part);
         commands.barrier("collector radiance");
         lightField->record(commands, photons->radiance());
     }
 }
 
-void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params, int firstRow,
-                               int rows) {
+void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params,
+                               const draw::Band& band) {
     shared::DrawParams values{};
     values.view = draw::viewParams(camera);
     values.light = draw::lightParams(scene.sun, scene.sky, medium.albedo, medium.tables);
     values.field = fieldParams();
-    values.firstRow = firstRow;
-    values.rows = rows;
+    values.firstRow = band.first;
+    values.rows = band.rows;
     values.samples =
         draw::raysAcross(camera, cloud->toWorld.point(0.5 * glm::dvec3(cloud->size)), std::cbrt(cloud->voxelVolume));
     values.tilesAcross = billboards ? billboards->tilesAcross() : 0;
@@ -251,13 +261,15 @@ void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inp
     commands.submit();
     commands.wait();
     for (const gpu::PassTime& pass : commands.times()) addTime(statistics.passes, pass);
-    draw::copyPixels(inputs.pixels.mapped<const shared::Pixel>(), image, firstRow, rows);
+    draw::copyPixels(inputs.pixels.mapped<const shared::Pixel>(), image, band.first, band.rows);
 }
 
-void Renderer::State::drawCloud(LayeredImage& image) {
+/// The light that this view sees, by all photons or by a part of them.
+void Renderer::State::drawLight(photon::Part part) {
+    if (photons && progressive) makeLightField(photons->counters().emitted);
     if (sunDepth || photons) {
         commands.begin();
-        recordLight();
+        recordLight(part);
         commands.submit();
         commands.wait();
         for (const gpu::PassTime& pass : commands.times()) addTime(statistics.passes, pass);
@@ -265,23 +277,23 @@ void Renderer::State::drawCloud(LayeredImage& image) {
     if (billboards)
         billboards->prepare(camera, medium.extinction,
                             collectorSun ? collectorSun->values() : std::span<const float>());
-    const int band = bandRows(camera);
+}
+
+void Renderer::State::drawBands(LayeredImage& image, const std::vector<draw::Band>& bands, const Report& told) {
     gpu::Buffer params(context, "draw params", sizeof(shared::DrawParams), gpu::Memory::host);
-    const gpu::Buffer pixels(
-        context, "pixels",
-        static_cast<std::uint64_t>(band) * static_cast<std::uint64_t>(camera.width) * sizeof(shared::Pixel),
-        gpu::Memory::host);
+    const gpu::Buffer pixels(context, "pixels",
+                             static_cast<std::uint64_t>(draw::bandRows(camera)) *
+                                 static_cast<std::uint64_t>(camera.width) * sizeof(shared::Pixel),
+                             gpu::Memory::host);
     // Stands for fields that the scene does not have: the shaders never read it, but every binding must be there.
     const gpu::Image none(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT);
     const draw::FrameInputs inputs{params, *phase, lightField ? lightField->image() : none,
                                    sunDepth ? sunDepth->image() : none, pixels};
-    const auto bands = static_cast<std::uint64_t>((camera.height + band - 1) / band);
-    report("drawing", 0, bands);
-    for (std::uint64_t done = 0; done < bands; ++done) {
+    told("drawing", 0, bands.size());
+    for (std::size_t done = 0; done < bands.size(); ++done) {
         stopIfInterrupted();
-        const int row = static_cast<int>(done) * band;
-        drawBand(image, inputs, params, row, std::min(band, camera.height - row));
-        report("drawing", done + 1, bands);
+        drawBand(image, inputs, params, bands[done]);
+        told("drawing", done + 1, bands.size());
     }
     statistics.gpuBytes = context.allocatedBytes();
 }
@@ -295,9 +307,41 @@ LayeredImage Renderer::draw() {
         s.photons->settle();
         for (const gpu::PassTime& pass : s.photons->times()) addTime(s.statistics.passes, pass);
     }
-    if (s.billboards || s.march) s.drawCloud(image);
+    if (s.billboards || s.march) {
+        s.drawLight(photon::Part::all);
+        s.drawBands(image, draw::allBands(s.camera), s.report);
+    }
     s.statistics.drawSeconds += secondsSince(start);
     return image;
+}
+
+/// Of the passes that were drawn last.
+double Renderer::State::passSeconds() const {
+    double milliseconds = 0.0;
+    for (const PassTime& pass : statistics.passes) milliseconds += pass.milliseconds;
+    return 1e-3 * milliseconds;
+}
+
+Preview Renderer::preview() {
+    State& s = *state_;
+    Preview preview;
+    const std::vector<draw::Band> bands = draw::sampleBands(s.camera);
+    for (const draw::Band& band : bands)
+        for (int row = 0; row < band.rows; ++row) preview.rows.push_back(band.first + row);
+    preview.evenGenerations = s.photons->halves().even;
+    preview.oddGenerations = s.photons->halves().odd;
+    for (const photon::Part part : {photon::Part::even, photon::Part::odd}) {
+        auto start = Clock::now();
+        LayeredImage& image = part == photon::Part::even ? preview.even : preview.odd;
+        image = draw::skyImage(s.camera, s.scene.sun, s.scene.sky);
+        s.drawLight(part);
+        const double whole = secondsSince(start);
+        s.statistics.passes.clear();
+        s.drawBands(image, bands, noReport);
+        // the first of the two also pays for what is made once
+        preview.forecastSeconds = whole + s.passSeconds() * s.camera.height / static_cast<double>(preview.rows.size());
+    }
+    return preview;
 }
 
 Statistics Renderer::statistics() const {

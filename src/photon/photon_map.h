@@ -30,12 +30,23 @@ struct Options {
     /// Whether generations beyond the p-th will replace the oldest. A picture that stops at p needs no slots: they are
     /// the bulk of the memory.
     bool keepRing = false;
+    /// Whether generations of even and of odd number stay apart until the sum takes them: pictures of both tell how
+    /// noisy a picture of all is. Not with a ring.
+    bool keepHalves = false;
     std::uint64_t memoryBudget = std::uint64_t{1} << 30U;  ///< bytes for all coefficients
 };
 
 /// Sums over all generations traced.
 struct Counters {
     std::uint64_t emitted = 0, events = 0, nulls = 0, absorbed = 0, escaped = 0, lost = 0, records = 0, saturated = 0;
+};
+
+/// Which generations a view is of.
+enum class Part { all, even, odd };
+
+/// Generations that are known apart: those since the sum last took some.
+struct Halves {
+    int even = 0, odd = 0;
 };
 
 /// The photon map: a ring of generations of spherical-harmonic coefficients, [collector][RGB][bands²] int64 each, and
@@ -53,10 +64,13 @@ class PhotonMap {
     /// Adds what has been traced to the sum; so do reconstruct() and downloadSum().
     void settle();
 
-    /// Radiance of every collector towards the eye, as vec3 in `radiance()`: recorded into `commands`.
-    void reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel);
+    /// Radiance of every collector towards the eye, as vec3 in `radiance()`: recorded into `commands`. A part needs
+    /// `keepHalves` and a generation in it; the sum takes nothing then.
+    void reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, Part part = Part::all);
+    Halves halves() const;
     const gpu::Buffer& radiance() const;
 
+    /// Without a ring: all that were traced.
     int generationsInRing() const;
     const Counters& counters() const;
     /// Milliseconds of each pass, summed, in the order of the passes.
