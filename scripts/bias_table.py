@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What error stays however many photons there are: relMSE by bands, forward cut and way to draw, over shipped scenes.
+"""What error stays however many photons there are, over shipped scenes: two Markdown tables for docs/error-time.md, from
+whose last columns, the largest over the scenes, src/progressive/bias.cpp has its figures.
 
-Each scene is rendered with photons until their noise is below a target (`render --target-error`), compared with two
-independent references, and what is left of the noise is subtracted. Prints a Markdown table for docs/error-time.md; its
-last column, the largest over the scenes, is what src/progressive/bias.cpp holds.
-Run it in the root of the repository after scripts/demo.sh.
+Bands: relMSE of pictures with 1 to 6 bands against one with 8 from the same photons, so that there is no noise in it.
+The rest: pictures with photons until their noise is low (`render --target-error`) against two independent references,
+less the noise. Run it in the root of the repository after scripts/demo.sh.
 """
 
 import argparse
@@ -13,11 +13,7 @@ import pathlib
 import subprocess
 
 SCENES = ["cumulus-side-lit", "cumulus-back-lit", "cumulus-front-lit", "cumulus-low-sun"]
-# name, overrides
-VARIANTS = [(f"{bands} bands", [f"photon_map.bands={bands}"]) for bands in range(1, 9)] + [
-    ("5 bands, no cut", ["photon_map.forward_cut=0"]),
-    ("5 bands, billboards", ["draw.mode=billboards"]),
-]
+VARIANTS = {"march": [], "no cut": ["photon_map.forward_cut=0"], "billboards": ["draw.mode=billboards"]}
 
 
 def run(*words):
@@ -25,38 +21,72 @@ def run(*words):
     return done.stdout
 
 
+def with_sets(sets):
+    return [word for one in sets for word in ("--set", one)]
+
+
+def table(title, scenes, rows):
+    """Prints rows of (name, error by scene) as they come."""
+    print(f"| {title} | " + " | ".join(scenes) + " | largest |")
+    print("|---" * (len(scenes) + 2) + "|")
+    for name, errors in rows:
+        print(f"| {name} | " + " | ".join(f"{value:.5f}" for value in errors) + f" | {max(errors):.5f} |", flush=True)
+    print()
+
+
+class Study:
+    def __init__(self, options):
+        self.options = options
+        self.size = with_sets([f"image.width={options.width}", f"image.height={options.width * 9 // 16}"])
+
+    def path(self, *words):
+        return self.options.folder / ("-".join(map(str, words)) + ".exr")
+
+    def render(self, scene, output, *more):
+        return json.loads(run(self.options.lumulus, "render", f"configs/scenes/{scene}.toml", "-o", output, "--quiet",
+                              "--stats", "-", *self.size, *more))
+
+    def relmse(self, picture, *truths):
+        return json.loads(run(self.options.lumulus, "compare", picture, *truths, "--json"))["relmse"]
+
+    def bands(self):
+        for scene in self.options.scenes:
+            self.render(scene, self.path(scene, 8), *with_sets(["photon_map.bands=8"]))
+        for bands in range(1, 7):
+            errors = []
+            for scene in self.options.scenes:
+                self.render(scene, self.path(scene, bands), *with_sets([f"photon_map.bands={bands}"]))
+                errors.append(self.relmse(self.path(scene, bands), self.path(scene, 8)))
+            yield bands, errors
+
+    def rest(self):
+        truths = {scene: [self.path(scene, "truth", seed) for seed in (101, 102)] for scene in self.options.scenes}
+        for scene, paths in truths.items():
+            for seed, path in zip((101, 102), paths):
+                run(self.options.lumulus, "reference", f"configs/scenes/{scene}.toml", "-o", path, "--spp",
+                    self.options.spp, "--majorant", "local", "--seed", seed, "--quiet", *self.size)
+        for name, sets in VARIANTS.items():
+            errors = []
+            for scene, paths in truths.items():
+                picture = self.path(scene, "picture")
+                stats = self.render(scene, picture, "--target-error", self.options.noise, *with_sets(sets))
+                errors.append(self.relmse(picture, *paths) - stats["progressive"]["noise"])
+            yield name, errors
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--lumulus", default="build/release/lumulus")
     parser.add_argument("--folder", type=pathlib.Path, default="build/bias", help="for pictures and references")
     parser.add_argument("--scenes", nargs="+", default=SCENES)
-    parser.add_argument("--variants", nargs="+", type=int, default=range(len(VARIANTS)), help="numbers of the rows")
     parser.add_argument("--spp", type=int, default=512, help="of each reference")
     parser.add_argument("--noise", type=float, default=5e-4, help="relMSE of the photons' noise to stop at")
     parser.add_argument("--width", type=int, default=160, help="of the pictures, which are 16:9")
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
-    size = ["--set", f"image.width={options.width}", "--set", f"image.height={options.width * 9 // 16}"]
-
-    print("| march, cut 12° unless said | " + " | ".join(options.scenes) + " | largest |")
-    print("|---" * (len(options.scenes) + 2) + "|")
-    truths = {}
-    for scene in options.scenes:
-        truths[scene] = [options.folder / f"{scene}-{seed}.exr" for seed in (101, 102)]
-        for seed, truth in zip((101, 102), truths[scene]):
-            run(options.lumulus, "reference", f"configs/scenes/{scene}.toml", "-o", truth, "--spp", options.spp,
-                "--majorant", "local", "--seed", seed, "--quiet", *size)
-    for number in options.variants:
-        name, sets = VARIANTS[number]
-        left = []
-        for scene in options.scenes:
-            picture = options.folder / f"{scene}.exr"
-            stats = json.loads(run(options.lumulus, "render", f"configs/scenes/{scene}.toml", "-o", picture, "--quiet",
-                                   "--target-error", options.noise, "--stats", "-", *size,
-                                   *(word for one in sets for word in ("--set", one))))
-            error = json.loads(run(options.lumulus, "compare", picture, *truths[scene], "--json"))["relmse"]
-            left.append(error - stats["progressive"]["noise"])
-        print(f"| {name} | " + " | ".join(f"{value:.4f}" for value in left) + f" | {max(left):.4f} |", flush=True)
+    study = Study(options)
+    table("bands", options.scenes, study.bands())
+    table("many photons", options.scenes, study.rest())
 
 
 if __name__ == "__main__":

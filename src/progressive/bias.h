@@ -5,8 +5,8 @@
 namespace lumulus::progressive {
 
 /// relMSE that stays however many photons there are, from truncated harmonics, the cut forward peak and the resolution
-/// of collectors and light field: the largest that was measured over the cumulus scenes with these bands, this cut (off
-/// or on) and this way to draw (docs/error-time.md, by scripts/bias_table.py). Thin clouds have less.
+/// of collectors and light field: the sum of the largest that were measured over cumulus scenes (docs/error-time.md, by
+/// scripts/bias_table.py). Thin clouds have less.
 double biasEstimate(const scene::Scene& scene);
 
 }  // namespace lumulus::progressive
