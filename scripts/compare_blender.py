@@ -8,32 +8,17 @@ import math
 import pathlib
 import re
 import statistics
-import subprocess
-import sys
 import time
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "tests" / "cli"))
-from exr_reader import read_exr  # noqa: E402
+from measuring import ROOT, Failure, output_of, read_exr, run, with_sets
 
 COLUMNS = ["seconds", "seconds_without_warmup", "photons_or_spp", "relMSE", "RMSE", "FLIP", "bias", "relative_bias"]
-
-
-class Failure(Exception):
-    """A program that did not do its work: one line."""
-
-
-def output_of(*words):
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise Failure((done.stderr.strip().splitlines() or [f"{words[0]} failed"])[-1])
-    return done.stdout
 
 
 def cycles_run(options, picture, samples, seed):
     """Renders one picture: seconds of the whole process, and of the rendering alone."""
     start = time.monotonic()
-    said = output_of("blender", "-b", "--factory-startup", "--python-exit-code", 1, "-P", HERE / "cycles_scene.py", "--",
+    said = output_of("blender", "-b", "--factory-startup", "--python-exit-code", 1, "-P", ROOT / "scripts" / "cycles_scene.py", "--",
                      options.output, picture, samples, seed, options.step_rate)
     found = re.search(r"^cycles seconds (\S+)$", said, re.MULTILINE)
     if not found:
@@ -96,7 +81,7 @@ def parse():
     parser.add_argument("--step-rate", type=float, default=1.0, help="of Cycles' march, in voxels; .25 to check means")
     parser.add_argument("--set", action="append", default=[], help="override section.key=value; may repeat")
     parser.add_argument("--seconds", default="0.3,1,3", help="budgets of `lumulus bench`; empty: leave it out")
-    parser.add_argument("--build", type=pathlib.Path, default=HERE.parent / "build" / "release")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
     options = parser.parse_args()
     options.lumulus = options.build / "lumulus"
     return options
@@ -122,11 +107,8 @@ def main():
     if options.seconds:
         print(output_of(options.lumulus, "bench", options.scene, "--reference", options.reference, "-o", options.output,
                         "--seconds", options.seconds, "--seeds", options.seeds, "--quiet", "--cycles", table,
-                        *(word for one in options.set for word in ("--set", one))), end="")
+                        *with_sets(options.set)), end="")
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except Failure as failure:
-        sys.exit(f"compare-blender: {failure}")
+    run(main)

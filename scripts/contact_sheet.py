@@ -42,7 +42,7 @@ def row_of(lumulus, scene, spp):
         lumulus.render(scene, picture, [f"draw.mode={mode}"])
         found = lumulus.compare(picture, truth, words=["--diff", difference] if mode == "march" else [])
         figures[mode] = found["relmse"] - (found["reference_noise"] or 0.0)
-        cells.append((tone_mapped(picture, exposure), f"{scene}, {mode}: relMSE {figures[mode]:.4f}"))
+        cells.append((tone_mapped(picture, exposure), f"{scene}, {mode}: {figures[mode]:.4f}"))
     cells.append((tone_mapped(truth, exposure), f"{scene}, reference"))
     with Image.open(difference) as image:
         cells.append((image.convert("RGB"), f"{scene}, march − reference"))
