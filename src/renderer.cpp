@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "cloud/cloud.h"
+#include "draw/bands.h"
 #include "draw/billboards.h"
 #include "draw/camera.h"
 #include "draw/collector_sun.h"
@@ -38,14 +40,6 @@ double largest(const glm::dvec3& v) {
     return std::max(v.x, std::max(v.y, v.z));
 }
 
-/// Rows drawn at once, in whole tiles: few enough that progress and Ctrl-C do not wait long, and 2^18 pixels at most.
-int bandRows(const Camera& camera) {
-    constexpr int bands = 32;
-    const int tiles = (camera.height + bands * shared::TILE_EDGE - 1) / (bands * shared::TILE_EDGE);
-    const int most = (1 << 18) / (camera.width * shared::TILE_EDGE);
-    return std::max(1, std::min(tiles, most)) * shared::TILE_EDGE;
-}
-
 /// The scene, if all that is in it can be drawn.
 const scene::Scene& drawable(const scene::Scene& scene) {
     if (!scene.surfaces.empty()) {
@@ -67,10 +61,15 @@ void addTime(std::vector<PassTime>& times, const gpu::PassTime& pass) {
 
 struct Renderer::State {
     State(const scene::Scene& theScene, const RendererOptions& options)
-        : scene(theScene), report(options.report), context({options.device, options.validation}), commands(context) {}
+        : scene(theScene),
+          report(options.report),
+          progressive(options.progressive),
+          context({options.device, options.validation}),
+          commands(context) {}
 
     scene::Scene scene;
     Report report;
+    bool progressive;
     gpu::Context context;
     gpu::Commands commands;
     Camera camera;
@@ -78,7 +77,7 @@ struct Renderer::State {
     // What follows exists only where the scene needs it.
     photon::Medium medium;
     std::optional<cloud::Cloud> cloud;
-    cloud::CellGrid lightGrid;
+    cloud::CellGrid depositGrid;
     std::optional<photon::PhotonMap> photons;
     std::optional<draw::SunDepth> sunDepth;
     std::optional<draw::CollectorSun> collectorSun;
@@ -102,9 +101,13 @@ struct Renderer::State {
     void drawCloud(LayeredImage& image);
     void prepareDrawing();
     shared::FieldParams fieldParams() const;
-    void recordLight();
+    void makeLightField(std::uint64_t forPhotons);
+    void recordLight(photon::Part part);
     void applyFog(LayeredImage& image);
-    void drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params, int firstRow, int rows);
+    void drawLight(photon::Part part);
+    void drawBands(LayeredImage& image, const std::vector<draw::Band>& bands, const Report& told);
+    void drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params, const draw::Band& band);
+    double passSeconds() const;
     glm::dvec3 toVoxel(const glm::dvec3& world) const;
     glm::vec3 eyeVoxel() const;
 };
@@ -134,15 +137,18 @@ void Renderer::State::preparePhotons() {
     if (each > 0xF0000000ULL)
         throw InputError("a generation would hold " + std::to_string(each) + " photons, more than 4026531840",
                          "photon_map.photons", "ask for more generations or fewer photons");
-    lightGrid = draw::lightGrid(*cloud, static_cast<std::uint64_t>(wanted.photons));
+    // progressive: as fine as any number of photons may ask for
+    depositGrid = draw::lightGrid(
+        *cloud, progressive ? std::numeric_limits<std::uint64_t>::max() : static_cast<std::uint64_t>(wanted.photons));
     photon::Options options;
     options.photonsPerGeneration = each;
     options.generations = wanted.generations;
     options.firstGeneration = static_cast<std::uint32_t>(wanted.firstGeneration);
     options.bands = wanted.bands;
     options.seed = wanted.seed;
-    options.deposits = lightGrid;
+    options.deposits = depositGrid;
     options.memoryBudget = static_cast<std::uint64_t>(std::ldexp(wanted.memoryBudget, 20));
+    options.keepHalves = progressive;
     photons.emplace(context, *cloud, medium, options);
 }
 
@@ -195,7 +201,7 @@ void Renderer::State::prepareDrawing() {
     const draw::DrawFeatures features{!medium.tables.oneTurnH.empty(), scatters() && hasSun(), photons.has_value(),
                                       medium.albedo == glm::dvec3(medium.albedo.x)};
     if (features.sun) sunDepth.emplace(context, *cloud);
-    if (features.photons) lightField.emplace(context, *cloud, lightGrid);
+    if (features.photons) makeLightField(static_cast<std::uint64_t>(scene.photonMap.photons));
     phase.emplace(context, medium.tables);
     if (scene.draw.mode == scene::DrawMode::billboards) {
         billboards.emplace(context, *cloud, features);
@@ -203,6 +209,11 @@ void Renderer::State::prepareDrawing() {
     } else {
         march.emplace(context, *cloud, features);
     }
+}
+
+void Renderer::State::makeLightField(std::uint64_t forPhotons) {
+    const cloud::CellGrid grid = draw::lightGrid(*cloud, forPhotons);
+    if (!lightField || !(grid == lightField->grid())) lightField.emplace(context, *cloud, grid, depositGrid);
 }
 
 glm::dvec3 Renderer::State::toVoxel(const glm::dvec3& world) const {
@@ -235,7 +246,7 @@ shared::FieldParams Renderer::State::fieldParams() const {
 }
 
 /// Light in the cloud as this view sees it; the sun's depths only once.
-void Renderer::State::recordLight() {
+void Renderer::State::recordLight(photon::Part part) {
     if (sunDepth && !sunDrawn) {
         sunDepth->record(commands, -sunlight.directionTo, medium.extinction);
         if (collectorSun) {
@@ -245,23 +256,24 @@ void Renderer::State::recordLight() {
         sunDrawn = true;
     }
     if (photons) {
-        photons->reconstruct(commands, eyeVoxel());
+        const photon::Light light = photons->light(part);
+        photons->reconstruct(commands, eyeVoxel(), light);
         commands.barrier("collector radiance");
         lightField->record(
-            commands, photons->radiance(), photons->sum(),
-            {photons->depositBase(), photons->depositUnit(), photons->photonPower(), photons->massScale()});
+            commands, photons->radiance(),
+            {*light.counts, photons->depositBase(), light.unit, photons->photonPower(), photons->massScale()});
     }
 }
 
-void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params, int firstRow,
-                               int rows) {
+void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params,
+                               const draw::Band& band) {
     shared::DrawParams values{};
     values.view = draw::viewParams(camera);
     values.light = draw::lightParams(sunlight, scene.sky, medium.albedo, medium.tables);
     values.light.sunDisc = draw::lightParams(scene.sun, scene.sky, medium.albedo, medium.tables).sunDisc;
     values.field = fieldParams();
-    values.firstRow = firstRow;
-    values.rows = rows;
+    values.firstRow = band.first;
+    values.rows = band.rows;
     values.samples =
         draw::raysAcross(camera, cloud->toWorld.point(0.5 * glm::dvec3(cloud->size)), std::cbrt(cloud->voxelVolume));
     values.tilesAcross = billboards ? billboards->tilesAcross() : 0;
@@ -274,13 +286,15 @@ void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inp
     commands.submit();
     commands.wait();
     for (const gpu::PassTime& pass : commands.times()) addTime(statistics.passes, pass);
-    draw::copyPixels(inputs.pixels.mapped<const shared::Pixel>(), image, firstRow, rows);
+    draw::copyPixels(inputs.pixels.mapped<const shared::Pixel>(), image, band.first, band.rows);
 }
 
-void Renderer::State::drawCloud(LayeredImage& image) {
+/// The light that this view sees, by all photons or by a part of them.
+void Renderer::State::drawLight(photon::Part part) {
+    if (photons && progressive) makeLightField(photons->counters().emitted);
     if (sunDepth || photons) {
         commands.begin();
-        recordLight();
+        recordLight(part);
         commands.submit();
         commands.wait();
         for (const gpu::PassTime& pass : commands.times()) addTime(statistics.passes, pass);
@@ -288,23 +302,23 @@ void Renderer::State::drawCloud(LayeredImage& image) {
     if (billboards)
         billboards->prepare(camera, medium.extinction,
                             collectorSun ? collectorSun->values() : std::span<const float>());
-    const int band = bandRows(camera);
+}
+
+void Renderer::State::drawBands(LayeredImage& image, const std::vector<draw::Band>& bands, const Report& told) {
     gpu::Buffer params(context, "draw params", sizeof(shared::DrawParams), gpu::Memory::host);
-    const gpu::Buffer pixels(
-        context, "pixels",
-        static_cast<std::uint64_t>(band) * static_cast<std::uint64_t>(camera.width) * sizeof(shared::Pixel),
-        gpu::Memory::host);
+    const gpu::Buffer pixels(context, "pixels",
+                             static_cast<std::uint64_t>(draw::bandRows(camera)) *
+                                 static_cast<std::uint64_t>(camera.width) * sizeof(shared::Pixel),
+                             gpu::Memory::host);
     // Stands for fields that the scene does not have: the shaders never read it, but every binding must be there.
     const gpu::Image none(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT);
     const draw::FrameInputs inputs{params, *phase, lightField ? lightField->image() : none,
                                    sunDepth ? sunDepth->image() : none, pixels};
-    const auto bands = static_cast<std::uint64_t>((camera.height + band - 1) / band);
-    report("drawing", 0, bands);
-    for (std::uint64_t done = 0; done < bands; ++done) {
+    told("drawing", 0, bands.size());
+    for (std::size_t done = 0; done < bands.size(); ++done) {
         stopIfInterrupted();
-        const int row = static_cast<int>(done) * band;
-        drawBand(image, inputs, params, row, std::min(band, camera.height - row));
-        report("drawing", done + 1, bands);
+        drawBand(image, inputs, params, bands[done]);
+        told("drawing", done + 1, bands.size());
     }
     statistics.gpuBytes = context.allocatedBytes();
 }
@@ -326,10 +340,42 @@ LayeredImage Renderer::draw() {
         s.photons->settle();
         for (const gpu::PassTime& pass : s.photons->times()) addTime(s.statistics.passes, pass);
     }
-    if (s.billboards || s.march) s.drawCloud(image);
+    if (s.billboards || s.march) {
+        s.drawLight(photon::Part::all);
+        s.drawBands(image, draw::allBands(s.camera), s.report);
+    }
     if (s.fog) s.applyFog(image);
     s.statistics.drawSeconds += secondsSince(start);
     return image;
+}
+
+/// Of the passes that were drawn last.
+double Renderer::State::passSeconds() const {
+    double milliseconds = 0.0;
+    for (const PassTime& pass : statistics.passes) milliseconds += pass.milliseconds;
+    return 1e-3 * milliseconds;
+}
+
+Preview Renderer::preview() {
+    State& s = *state_;
+    Preview preview;
+    const std::vector<draw::Band> bands = draw::sampleBands(s.camera);
+    for (const draw::Band& band : bands)
+        for (int row = 0; row < band.rows; ++row) preview.rows.push_back(band.first + row);
+    preview.evenGenerations = s.photons->halves().even;
+    preview.oddGenerations = s.photons->halves().odd;
+    for (const photon::Part part : {photon::Part::even, photon::Part::odd}) {
+        auto start = Clock::now();
+        LayeredImage& image = part == photon::Part::even ? preview.even : preview.odd;
+        image = draw::skyImage(s.camera, s.scene.sun, s.scene.sky);
+        s.drawLight(part);
+        const double whole = secondsSince(start);
+        s.statistics.passes.clear();
+        s.drawBands(image, bands, noReport);
+        // the first of the two also pays for what is made once
+        preview.forecastSeconds = whole + s.passSeconds() * s.camera.height / static_cast<double>(preview.rows.size());
+    }
+    return preview;
 }
 
 Statistics Renderer::statistics() const {

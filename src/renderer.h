@@ -15,6 +15,8 @@ struct RendererOptions {
     std::string device;        ///< name (part of it) or index; empty: the best one
     bool validation = false;   ///< Vulkan validation and synchronisation validation; messages end up in `Statistics`
     Report report = noReport;  ///< told of loading, preparing and drawing
+    /// The photons are not counted beforehand: generations may go on beyond the scene's, and preview() can be asked.
+    bool progressive = false;
 };
 
 struct PassTime {
@@ -39,6 +41,15 @@ struct Statistics {
     std::vector<std::string> validationMessages;
 };
 
+/// Some rows of the picture by the photons of the even and of the odd generations, which have none in common: what they
+/// differ by is noise.
+struct Preview {
+    LayeredImage even, odd;
+    std::vector<int> rows;                        ///< that are drawn
+    int evenGenerations = 0, oddGenerations = 0;  ///< in the two pictures
+    double forecastSeconds = 0.0;                 ///< that draw() would take now
+};
+
 /// Owns the device, the cloud and the photon map, and makes frames.
 /// Errors: InputError for bad scenes, Error for what fails while running and where interrupted.
 class Renderer {
@@ -52,6 +63,8 @@ class Renderer {
     void traceGeneration();
     /// Draws the view of the scene: layers as in the documented EXR contract.
     LayeredImage draw();
+    /// For progressive rendering, from two generations on after the last draw().
+    Preview preview();
 
     Statistics statistics() const;
 

@@ -16,6 +16,18 @@ layout(binding = 4) uniform sampler3D cellMass;
 layout(binding = 5, scalar) readonly buffer Deposits { int64_t deposits[]; };
 layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
+/// Counts of all cells of the deposits in a cell.
+float countedIn(ivec3 cell) {
+    const ivec3 first = cell * push.depositsAcross;
+    const ivec3 end = min(first + push.depositsAcross, push.depositCells);
+    int64_t sum = 0l;
+    for (int z = first.z; z < end.z; ++z)
+        for (int y = first.y; y < end.y; ++y)
+            for (int x = first.x; x < end.x; ++x)
+                sum += deposits[push.depositBase + uint((z * push.depositCells.y + y) * push.depositCells.x + x)];
+    return float(sum);
+}
+
 void main() {
     const uint index = linearInvocation(64u);
     const uvec3 grid = uvec3(push.grid);
@@ -36,7 +48,7 @@ void main() {
                 }
             }
     if (sum.a > 0.0) {
-        const float counted = float(deposits[push.depositBase + index]) * push.depositScale;
+        const float counted = countedIn(cell) * push.depositScale;
         const float expected = fluence / sum.a * texelFetch(cellMass, cell, 0).r * push.massScale;
         sum.rgb *= (counted + push.prior) / (expected + push.prior);
     }

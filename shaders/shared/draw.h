@@ -102,6 +102,8 @@ struct LightFieldPush {
     ivec3 grid;  // cells
     int edge;    // of a cell, voxels
     vec3 scale;  // cells → texture coordinates
+    ivec3 depositCells;
+    int depositsAcross;  // cells of the deposits along an edge of a cell
     uint depositBase;
     float depositScale;  // counts → W
     float massScale;     // ∫ normalised density [voxels] → ∫ σt' dV [m²]
@@ -118,7 +120,7 @@ static_assert(sizeof(Billboard) == 24 && offsetof(Billboard, sunDepth) == 20);
 static_assert(sizeof(Pixel) == 48 && offsetof(Pixel, front) == 44);
 static_assert(sizeof(SunDepthPush) == 76 && offsetof(SunDepthPush, step) == 72);
 static_assert(sizeof(CollectorSunPush) == 64 && offsetof(CollectorSunPush, collectors) == 60);
-static_assert(sizeof(LightFieldPush) == 56 && offsetof(LightFieldPush, prior) == 52);
+static_assert(sizeof(LightFieldPush) == 72 && offsetof(LightFieldPush, prior) == 68);
 #endif
 
 SHARED_END

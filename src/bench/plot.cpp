@@ -17,7 +17,7 @@ constexpr double left = 80.0, right = 700.0, top = 86.0, bottom = 446.0;
 constexpr double pngScale = 2.0;
 
 constexpr double lineWidth = 1.8;
-constexpr Colour orange{0.76, 0.25, 0.05}, blue{0.11, 0.31, 0.85}, grey{0.33, 0.33, 0.33};
+constexpr Colour orange{0.76, 0.25, 0.05}, blue{0.11, 0.31, 0.85}, green{0.0, 0.45, 0.2}, grey{0.33, 0.33, 0.33};
 constexpr Colour major{0.73, 0.73, 0.73}, minor{0.93, 0.93, 0.93};
 
 /// A logarithmic axis from one power of ten to another.
@@ -55,11 +55,13 @@ struct Series {
     Stroke stroke() const { return {colour, lineWidth, whole ? std::vector{5.0, 4.0} : std::vector<double>{}}; }
 };
 
-constexpr std::array<Series, 4> allSeries{
+constexpr std::array<Series, 6> allSeries{
     {{Method::render, &Row::warmSeconds, "render, without warm-up", orange, false},
      {Method::render, &Row::seconds, "render, whole", orange, true},
      {Method::pathTracer, &Row::warmSeconds, "path tracer, without warm-up", blue, false},
-     {Method::pathTracer, &Row::seconds, "path tracer, whole", blue, true}}};
+     {Method::pathTracer, &Row::seconds, "path tracer, whole", blue, true},
+     {Method::cycles, &Row::warmSeconds, "Cycles, without warm-up", green, false},
+     {Method::cycles, &Row::seconds, "Cycles, whole", green, true}}};
 
 const Stroke floorStroke{grey, lineWidth, {2.0, 3.0}};
 
@@ -111,8 +113,9 @@ void drawSeries(Canvas& canvas, const Series& series, std::span<const Row> rows,
     for (const Point& point : points) canvas.disc(point, 3.4, series.colour, !series.whole);
 }
 
-/// Above the grid, where no curve can be: a column for each method, and one for the floor.
-void drawLegend(Canvas& canvas, bool withFloor) {
+/// Above the grid, where no curve can be: a column for each method, and a line for the floor. Cycles has its place only
+/// where there are points of it.
+void drawLegend(Canvas& canvas, bool withFloor, bool withCycles) {
     constexpr std::array columns{left, left + 206.0, left + 436.0};
     constexpr double rowHeight = 18.0, sample = 32.0;
     const auto entry = [&](std::size_t column, int row, const char* name, const Stroke& stroke) {
@@ -123,11 +126,12 @@ void drawLegend(Canvas& canvas, bool withFloor) {
         return Point{at.x + 0.5 * sample, y};
     };
     for (const Series& series : allSeries) {
-        const std::size_t column = series.method == Method::render ? 0 : 1;
+        if (series.method == Method::cycles && !withCycles) continue;
+        const auto column = static_cast<std::size_t>(series.method);
         const Point middle = entry(column, series.whole ? 1 : 0, series.name, series.stroke());
         canvas.disc(middle, 3.4, series.colour, !series.whole);
     }
-    if (withFloor) entry(2, 0, "noise of the reference", floorStroke);
+    if (withFloor) entry(2, withCycles ? -1 : 0, "noise of the reference", floorStroke);
 }
 
 std::vector<std::byte> drawn(Canvas canvas, std::span<const Row> rows, const std::string& title,
@@ -148,7 +152,8 @@ std::vector<std::byte> drawn(Canvas canvas, std::span<const Row> rows, const std
         drawLine(canvas, {left, y}, {right, y}, floorStroke);
     }
     for (const Series& series : allSeries) drawSeries(canvas, series, rows, axes);
-    drawLegend(canvas, withFloor);
+    const bool withCycles = std::ranges::any_of(rows, [](const Row& row) { return row.method == Method::cycles; });
+    drawLegend(canvas, withFloor, withCycles);
     return canvas.finish();
 }
 

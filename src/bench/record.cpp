@@ -36,7 +36,15 @@ Row rowOf(std::span<const Run> runs) {
 }  // namespace
 
 const char* nameOf(Method method) {
-    return method == Method::render ? "render" : "path tracer";
+    switch (method) {
+        case Method::pathTracer:
+            return "path tracer";
+        case Method::cycles:
+            return "Cycles";
+        case Method::render:
+            break;
+    }
+    return "render";
 }
 
 std::vector<Row> summarise(std::span<const Run> runs) {

@@ -7,9 +7,9 @@
 
 namespace lumulus::bench {
 
-enum class Method { render, pathTracer };
+enum class Method { render, pathTracer, cycles };
 
-/// "render", "path tracer".
+/// "render", "path tracer", "Cycles".
 const char* nameOf(Method method);
 
 /// How far a picture is from the reference (see reference::Comparison).

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct Clock {
 
 constexpr std::array<Clock, 2> clocks{{{"without warm-up", &Row::warmSeconds}, {"whole", &Row::seconds}}};
 
-/// The times of one method to reach the target. Those of the path tracer go on beyond the last point, from which its
+/// The times of one method to reach the target. Those of path tracers go on beyond the last point, from which their
 /// time before the first sample is known.
 TimeToError timeOf(std::span<const Row> rows, Method method, const Clock& clock, double target) {
     std::vector<CurvePoint> curve;
@@ -29,7 +30,7 @@ TimeToError timeOf(std::span<const Row> rows, Method method, const Clock& clock,
         curve.push_back({(row.*clock.seconds).mean, row.relMse.mean});
         fixed = (row.*clock.seconds).mean - row.warmSeconds.mean;
     }
-    return timeToReach(curve, target, method == Method::pathTracer ? std::optional(fixed) : std::nullopt);
+    return timeToReach(curve, target, method == Method::render ? std::nullopt : std::optional(fixed));
 }
 
 std::string timeText(const TimeToError& time) {
@@ -46,7 +47,7 @@ std::string timeText(const TimeToError& time) {
     return "not reached";
 }
 
-/// How many times longer the path tracer takes.
+/// How many times longer a path tracer takes.
 std::string ratioText(const TimeToError& render, const TimeToError& tracer) {
     if (render.how == Reached::never || tracer.how == Reached::never) return "-";
     const bool renderBound = render.how == Reached::atFirst, tracerBound = tracer.how == Reached::atFirst;
@@ -69,13 +70,21 @@ std::string tableText(std::span<const Row> rows, std::optional<double> floor) {
     for (const Row& row : rows) text += rowText(row);
     text += floor ? fmt::format("reference noise: relMSE {:.3g}, subtracted\n", *floor)
                   : std::string("reference noise: unknown, it has no variance layers; nothing subtracted\n");
-    text += fmt::format("\n{:<28}{:>14}{:>14}{:>10}\n", "time to reach", "render", "path tracer", "ratio");
+    std::vector<Method> tracers{Method::pathTracer};
+    if (std::ranges::any_of(rows, [](const Row& row) { return row.method == Method::cycles; }))
+        tracers.push_back(Method::cycles);
+    text += fmt::format("\n{:<28}{:>14}", "time to reach", nameOf(Method::render));
+    for (const Method tracer : tracers) text += fmt::format("{:>14}{:>10}", nameOf(tracer), "ratio");
+    text += "\n";
     for (const double target : targets) {
         for (const Clock& clock : clocks) {
             const TimeToError render = timeOf(rows, Method::render, clock, target);
-            const TimeToError tracer = timeOf(rows, Method::pathTracer, clock, target);
-            text += fmt::format("relMSE {:<6g} {:<14}{:>14}{:>14}{:>10}\n", target, clock.name, timeText(render),
-                                timeText(tracer), ratioText(render, tracer));
+            text += fmt::format("relMSE {:<6g} {:<14}{:>14}", target, clock.name, timeText(render));
+            for (const Method method : tracers) {
+                const TimeToError tracer = timeOf(rows, method, clock, target);
+                text += fmt::format("{:>14}{:>10}", timeText(tracer), ratioText(render, tracer));
+            }
+            text += "\n";
         }
     }
     return text + "~ extrapolated: error falls as 1/samples; ≤ the first measurement is there already\n";

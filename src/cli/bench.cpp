@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "bench/measure.h"
 #include "bench/path_tracer_runs.h"
+#include "bench/peer.h"
 #include "bench/plan.h"
 #include "bench/plot.h"
 #include "bench/record.h"
@@ -51,6 +52,8 @@ void runBench(const BenchOptions& options) {
     const std::vector<std::uint64_t> seeds = bench::seedsWithout(scene.photonMap.seed, options.seeds, seedOf(picture));
     const bench::Truth truth = bench::makeTruth(std::move(picture), options.reference.string(), scene.image.width,
                                                 scene.image.height, scene.image.exposure);
+    const std::vector<bench::Row> peer =
+        options.cycles.empty() ? std::vector<bench::Row>() : bench::readPeer(options.cycles);
     gpu::chooseDevices(gpu::listDevices(), options.device);  // refuses a device that there is not, before any work
     makeFolder(options.output);
     for (const char* name : {"error.csv", "error.svg", "error.png"}) checkWritable(options.output / name);
@@ -66,7 +69,8 @@ void runBench(const BenchOptions& options) {
         const std::vector<bench::Run> traced = bench::pathTracerRuns(scene, truth, budgets, seeds, progress);
         runs.insert(runs.end(), traced.begin(), traced.end());
     }
-    const std::vector<bench::Row> rows = bench::summarise(runs);
+    std::vector<bench::Row> rows = bench::summarise(runs);
+    rows.insert(rows.end(), peer.begin(), peer.end());
     const std::string numbers = bench::csv(rows);
     writeFile(options.output / "error.csv", std::as_bytes(std::span(numbers)));
     const bench::Plot plot = bench::errorPlot(rows, options.scene.filename().string(), truth.floor);

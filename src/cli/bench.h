@@ -14,6 +14,7 @@ struct BenchOptions {
     int seeds = 3;
     std::vector<std::string> overrides;
     std::string device;
+    std::filesystem::path cycles;  ///< table of another renderer's points; empty: none
     bool quiet = false;
 };
 

@@ -56,6 +56,14 @@ void addRender(CLI::App& app, RenderOptions& options, Action& action) {
     command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
         ->allow_extra_args(false);
     command->add_option("--seed", options.seed, "Seed of the random numbers (photon_map.seed)")->check(seedRange());
+    command
+        ->add_option("--seconds", options.seconds,
+                     "Trace photons as long as the whole run, with drawing and writing, takes this time")
+        ->check(notEmpty());
+    command
+        ->add_option("--target-error", options.targetError,
+                     "Trace photons until their noise, as relMSE, is estimated to be this small")
+        ->check(notEmpty());
     addDevice(*command, options.device);
     command->add_option("--stats", options.stats, "Write statistics as JSON to this file, - for standard output")
         ->check(notEmpty());
@@ -171,6 +179,9 @@ void addBench(CLI::App& app, BenchOptions& options, Action& action) {
     command->add_option("--seeds", options.seeds, "Pictures for each time")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
+    command
+        ->add_option("--cycles", options.cycles, "Points of Blender's Cycles, from scripts/compare-blender.sh (.csv)")
+        ->check(notEmpty());
     command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
         ->allow_extra_args(false);
     addDevice(*command, options.device);

@@ -119,7 +119,7 @@ void runComposite(const CompositeOptions& options) {
 
     const Stopwatch writing;
     for (const auto& output : options.outputs) writePicture(output, color, scene.image.exposure);
-    writeStatistics(options.stats, statisticsJson(statistics, writing.seconds(), total.seconds()));
+    writeStatistics(options.stats, statisticsJson(statistics, std::nullopt, writing.seconds(), total.seconds()));
     requireNoMessages(options.validate, statistics);
 }
 

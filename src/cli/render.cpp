@@ -1,7 +1,10 @@
 #include "cli/render.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -13,6 +16,8 @@
 #include "base/version.h"
 #include "cli/output.h"
 #include "cli/stats_json.h"
+#include "progressive/bias.h"
+#include "progressive/trace_until.h"
 #include "renderer.h"
 #include "scene/load.h"
 
@@ -43,7 +48,24 @@ scene::Scene sceneOf(const RenderOptions& options) {
     return scene::loadScene(options.scene, overrides, options.quality);
 }
 
-LayeredImage renderFrame(Renderer& renderer, Steps& steps) {
+void requirePositive(const std::optional<double>& value, const char* option) {
+    if (value && !(*value > 0.0 && std::isfinite(*value)))
+        throw InputError(fmt::format("{} is no limit", *value), option, "give a number above 0");
+}
+
+bool progressive(const RenderOptions& options) {
+    return options.seconds || options.targetError;
+}
+
+/// Seconds that writing will take, by what it takes on one core of 2023: layers are compressed.
+double writingForecast(const RenderOptions& options, const scene::Image& image) {
+    constexpr double exrPixel = 6e-7, pngPixel = 3e-7;
+    double perPixel = 0.0;
+    for (const auto& output : options.outputs) perPixel += hasSuffix(output, ".exr") ? exrPixel : pngPixel;
+    return perPixel * image.width * image.height;
+}
+
+void traceAll(Renderer& renderer, Steps& steps) {
     const auto generations = static_cast<std::uint64_t>(renderer.generationsWanted());
     steps.report("photons", 0, generations);
     for (std::uint64_t done = 0; done < generations; ++done) {
@@ -51,10 +73,32 @@ LayeredImage renderFrame(Renderer& renderer, Steps& steps) {
         renderer.traceGeneration();
         steps.report("photons", done + 1, generations);
     }
-    stopIfInterrupted();
-    LayeredImage image = renderer.draw();
-    stopIfInterrupted();
-    return image;
+}
+
+ProgressiveStatistics traceProgressively(Renderer& renderer, const RenderOptions& options, const scene::Scene& scene,
+                                         Clock::time_point start, Steps& steps) {
+    const progressive::Goal goal{options.seconds, options.targetError, writingForecast(options, scene.image)};
+    const auto reached = progressive::traceUntil(
+        renderer, goal, [start] { return secondsSince(start); }, steps.reporter());
+    return {progressive::nameOf(reached.stop), reached.noise, progressive::biasEstimate(scene), reached.previewSeconds};
+}
+
+/// Says on the terminal what was reached.
+void tellReached(const RenderOptions& options, const Statistics& statistics, const ProgressiveStatistics& reached,
+                 double seconds) {
+    const std::string noise = reached.noise ? fmt::format("relMSE {:.2g} of noise", *reached.noise)
+                                            : std::string("too few photons to tell their noise");
+    if (!options.quiet)
+        logNote(fmt::format(
+            "stopped by {} after {:.2f} s: {}, {} photons in {} generations; scenes like this have a "
+            "bias of relMSE {:.2g} beside it",
+            reached.stop, seconds, noise, statistics.photons, statistics.generations, reached.biasEstimate));
+    if (options.seconds && seconds > *options.seconds && reached.stop == "seconds" && statistics.generations <= 2)
+        logWarning(fmt::format("{:g} s were too short for this scene: it took {:.2f} s with {} photons",
+                               *options.seconds, seconds, statistics.photons));
+    if (options.targetError && *options.targetError < reached.biasEstimate)
+        logWarning(fmt::format("the bias of relMSE {:.2g} is larger than the target {:g}: photons do not lower it",
+                               reached.biasEstimate, *options.targetError));
 }
 
 void writeOutputs(const RenderOptions& options, const LayeredImage& image, double exposure, Steps& steps) {
@@ -67,12 +111,21 @@ void writeOutputs(const RenderOptions& options, const LayeredImage& image, doubl
 
 void runRender(const RenderOptions& options) {
     const Clock::time_point start = Clock::now();
+    requirePositive(options.seconds, "--seconds");
+    requirePositive(options.targetError, "--target-error");
     checkOutputs(options);
     const scene::Scene scene = sceneOf(options);
 
     Steps steps(options.quiet);
-    Renderer renderer(scene, RendererOptions{options.device, options.validate, steps.reporter()});
-    LayeredImage image = renderFrame(renderer, steps);
+    Renderer renderer(scene, {options.device, options.validate, steps.reporter(), progressive(options)});
+    std::optional<ProgressiveStatistics> reached;
+    if (progressive(options))
+        reached = traceProgressively(renderer, options, scene, start, steps);
+    else
+        traceAll(renderer, steps);
+    stopIfInterrupted();
+    LayeredImage image = renderer.draw();
+    stopIfInterrupted();
     const Statistics statistics = renderer.statistics();
     for (const std::string& warning : statistics.warnings) logWarning(warning);
 
@@ -86,7 +139,9 @@ void runRender(const RenderOptions& options) {
     const Clock::time_point writing = Clock::now();
     writeOutputs(options, image, scene.image.exposure, steps);
     const double writeSeconds = secondsSince(writing);
-    writeStatistics(options.stats, statisticsJson(statistics, writeSeconds, secondsSince(start)));
+    const double seconds = secondsSince(start);
+    if (reached) tellReached(options, statistics, *reached, seconds);
+    writeStatistics(options.stats, statisticsJson(statistics, reached, writeSeconds, seconds));
     requireNoMessages(options.validate, statistics);
 }
 

@@ -16,6 +16,8 @@ struct RenderOptions {
     std::optional<scene::Quality> quality;
     std::vector<std::string> overrides;
     std::optional<std::uint64_t> seed;
+    std::optional<double> seconds;      ///< for everything, instead of the scene's number of photons
+    std::optional<double> targetError;  ///< relMSE of the photons' noise to stop at
     std::string device;
     std::string stats;  ///< file, "-" for stdout, empty for none
     bool quiet = false;

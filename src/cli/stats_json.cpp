@@ -11,10 +11,11 @@ namespace lumulus::cli {
 
 using Json = nlohmann::ordered_json;
 
-std::string statisticsJson(const Statistics& s, double writeSeconds, double totalSeconds) {
+std::string statisticsJson(const Statistics& s, const std::optional<ProgressiveStatistics>& progressive,
+                           double writeSeconds, double totalSeconds) {
     Json passes = Json::array();
     for (const PassTime& pass : s.passes) passes.push_back({{"name", pass.name}, {"ms", pass.milliseconds}});
-    const Json json{
+    Json json{
         {"device", s.device},
         {"seconds",
          {{"load", s.loadSeconds},
@@ -37,6 +38,14 @@ std::string statisticsJson(const Statistics& s, double writeSeconds, double tota
         {"warnings", s.warnings},
         {"validation_messages", s.validationMessages},
     };
+    if (progressive) {
+        json["progressive"] = {{"stop", progressive->stop},
+                               {"noise", progressive->noise ? Json(*progressive->noise) : Json()},
+                               {"bias_estimate", progressive->biasEstimate},
+                               {"photons", s.photons},
+                               {"generations", s.generations},
+                               {"preview_seconds", progressive->previewSeconds}};
+    }
     // names of devices and files may hold bytes that are no UTF-8
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -30,6 +30,7 @@ struct CellGrid {
         return static_cast<std::uint64_t>(cells.x) * static_cast<std::uint64_t>(cells.y) *
                static_cast<std::uint64_t>(cells.z);
     }
+    bool operator==(const CellGrid&) const = default;
 };
 
 /// A virtual photon collector (VPC) and the billboard that stands for its leaf.

@@ -16,7 +16,7 @@ std::string mebibytes(std::uint64_t bytes) {
 }
 
 std::uint64_t parts(const MapSize& size) {
-    return 2 + (size.keepRing ? static_cast<std::uint64_t>(size.generations) : 0);
+    return 2 + (size.keepHalves ? 1U : 0U) + (size.keepRing ? static_cast<std::uint64_t>(size.generations) : 0);
 }
 
 }  // namespace
@@ -36,8 +36,9 @@ void requireMapFits(const MapSize& size, std::uint64_t budget, std::uint64_t lar
         const std::string held = size.keepRing ? fmt::format(", the sum of all and the ring of {}", size.generations)
                                                : std::string(" and the sum of all");
         throw InputError(
-            fmt::format("the photon map needs {}, {} times {} for the newest generation{}; its budget is {}",
-                        mebibytes(mapBytes(size)), parts(size), mebibytes(each), held, mebibytes(budget)),
+            fmt::format("the photon map needs {}, {} times {} for the newest generation{}{}; its budget is {}",
+                        mebibytes(mapBytes(size)), parts(size), mebibytes(each), size.keepHalves ? " of each half" : "",
+                        held, mebibytes(budget)),
             "photon_map.memory_budget",
             fmt::format("raise it, or lower photon_map.bands, {}",
                         size.keepRing ? "preparation.max_leaves or photon_map.generations"

@@ -10,13 +10,15 @@ struct MapSize {
     int bands = 5;
     int generations = 20;  ///< slots of the ring
     bool keepRing = false;
+    bool keepHalves = false;  ///< even and odd generations apart
     std::uint64_t deposits = 0;  ///< cells
 };
 
 /// Bytes of one generation: [collector][RGB][bands²] and [deposit], int64.
 std::uint64_t generationBytes(const MapSize& size);
 
-/// Bytes of all coefficients: a generation in the making, the sum, and the slots of the ring where it is kept.
+/// Bytes of all coefficients: a generation in the making, or one of each half, the sum, and the slots of the ring where
+/// it is kept.
 std::uint64_t mapBytes(const MapSize& size);
 
 /// Errors: InputError where the map needs more than `budget` bytes, or one generation more than the device's largest

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -43,7 +44,8 @@ double maxChannel(const glm::dvec3& v) {
 
 /// Of all collectors together, where there is room for them.
 std::uint32_t coefficientsOf(const gpu::Context& context, std::uint32_t collectors, const Options& options) {
-    const MapSize size{collectors, options.bands, options.generations, options.keepRing, options.deposits.count()};
+    const MapSize size{collectors,       options.bands,      options.generations,
+                       options.keepRing, options.keepHalves, options.deposits.count()};
     requireMapFits(size, options.memoryBudget, context.limits().maxStorageBufferRange);
     return static_cast<std::uint32_t>(generationBytes(size) / sizeof(std::int64_t));
 }
@@ -65,7 +67,7 @@ struct PhotonMap::State {
     Program<shared::AccumulatePush> accumulateProgram;
     Program<shared::ReconstructPush> reconstructProgram;
 
-    Buffer moments, places, generation, sum, saturated, radiance;
+    Buffer moments, places, generation, oddGeneration, sum, saturated, radiance;
     std::vector<Buffer> slots;
     gpu::Commands commands;
 
@@ -75,11 +77,15 @@ struct PhotonMap::State {
     std::optional<int> unsettled;  // unit exponent of what `generation` holds and the sum does not
     std::uint64_t unsettledRecords = 0;
     double flux = 0.0;  // luminance of the newest generation's light [W]
+    Halves halves;      // of what is unsettled
     Counters counters;
     PassLog log;
 
     void makeRoom(int unitExponent);
     void settle();
+    const Buffer& target();
+    double unsettledUnit() const;
+    void recordAdd(const Buffer& from, const Buffer& to, int shift);
 };
 
 PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Cloud& preparedCloud, const Medium& theMedium,
@@ -96,6 +102,8 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Cloud& preparedCl
       moments(context, "band moments", medium.tables.bandMoments.size() * sizeof(float), Memory::device),
       places(context, "collector places", collectors * sizeof(glm::vec4), Memory::device),
       generation(context, "generation", coefficients * sizeof(std::int64_t), Memory::device),
+      oddGeneration(context, "odd generation", options.keepHalves ? coefficients * sizeof(std::int64_t) : 0,
+                    Memory::device),
       sum(context, "ring sum", coefficients * sizeof(std::int64_t), Memory::device),
       saturated(context, "saturated", sizeof(std::uint32_t), Memory::host),
       radiance(context, "collector radiance", collectors * sizeof(glm::vec4), Memory::device),
@@ -114,30 +122,56 @@ void PhotonMap::State::makeRoom(int unitExponent) {
     settle();
     commands.begin();
     commands.fill(generation, 0);
+    if (options.keepHalves) commands.fill(oddGeneration, 0);
     commands.submit();
     commands.wait();
     unsettled = unitExponent;
     unsettledRecords = 0;
 }
 
+/// Where the next generation adds its light.
+const Buffer& PhotonMap::State::target() {
+    if (!options.keepHalves) return generation;
+    const bool odd = traced % 2 == 1;
+    ++(odd ? halves.odd : halves.even);
+    return odd ? oddGeneration : generation;
+}
+
+/// Watts that one count of what is unsettled stands for.
+double PhotonMap::State::unsettledUnit() const {
+    assert(unsettled);
+    return std::ldexp(1.0 / static_cast<double>(shared::COEFFICIENT_SCALE), *unsettled);
+}
+
+/// Adds `from`, times 2^shift, to `to`, and where there is a ring to its newest slot.
+void PhotonMap::State::recordAdd(const Buffer& from, const Buffer& to, int shift) {
+    const std::size_t slot = static_cast<std::size_t>((traced - 1) % options.generations);
+    // Without a ring the slot is not read or written; another buffer stands in its place.
+    const Buffer& oldest = options.keepRing ? slots[slot] : radiance;
+    commands.dispatch(
+        accumulateProgram, {{"Generation", from}, {"Slot", oldest}, {"Sum", to}, {"Saturated", saturated}},
+        shared::AccumulatePush{coefficients, shift, options.keepRing ? 1U : 0U}, linearGroups(coefficients, 64));
+}
+
 /// Adds what was traced to the sum.
 void PhotonMap::State::settle() {
     if (!unsettled) return;
     saturated.mapped<std::uint32_t>()[0] = 0;
-    const std::size_t slot = static_cast<std::size_t>((traced - 1) % options.generations);
-    // Without a ring the slot is not read or written; another buffer stands in its place.
-    const Buffer& oldest = options.keepRing ? slots[slot] : radiance;
     const int shift = *unsettled - std::countr_zero(static_cast<unsigned>(shared::COEFFICIENT_SCALE)) - baseExponent;
     commands.begin();
     commands.pass("accumulate");
-    commands.dispatch(
-        accumulateProgram, {{"Generation", generation}, {"Slot", oldest}, {"Sum", sum}, {"Saturated", saturated}},
-        shared::AccumulatePush{coefficients, shift, options.keepRing ? 1U : 0U}, linearGroups(coefficients, 64));
+    if (options.keepHalves) {
+        // joined before the sum rounds them: the same bits as if they had never been apart
+        recordAdd(oddGeneration, generation, 0);
+        commands.barrier("halves joined");
+    }
+    recordAdd(generation, sum, shift);
     commands.submit();
     commands.wait();
     log.add(commands);
     counters.saturated += saturated.mapped<std::uint32_t>()[0];
     unsettled.reset();
+    halves = {};
 }
 
 PhotonMap::PhotonMap(gpu::Context& context, const cloud::Cloud& cloud, const Medium& medium, const Options& options)
@@ -171,7 +205,7 @@ void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
             s.hasUnit = true;
         }
         s.makeRoom(unitExponent);
-        s.tracer.trace(emission, sun, unitExponent, static_cast<std::uint32_t>(s.traced), s.generation, s.counters,
+        s.tracer.trace(emission, sun, unitExponent, static_cast<std::uint32_t>(s.traced), s.target(), s.counters,
                        s.unsettledRecords, s.log);
     } else if (s.options.keepRing) {
         s.makeRoom(unitExponent);  // the oldest generation gives way to an empty one
@@ -180,18 +214,28 @@ void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
     if (s.options.keepRing) s.settle();
 }
 
-void PhotonMap::reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel) {
+Light PhotonMap::light(Part part) {
     State& s = *state_;
-    s.settle();
+    if (part == Part::all) {
+        s.settle();
+        return {&s.sum, unit() / std::max(1, generationsInRing())};
+    }
+    const bool even = part == Part::even;
+    return {even ? &s.generation : &s.oddGeneration, s.unsettledUnit() / (even ? s.halves.even : s.halves.odd)};
+}
+
+void PhotonMap::reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, const Light& light) {
+    State& s = *state_;
     shared::ReconstructPush push{};
     push.collectors = s.collectors;
-    push.scale = static_cast<float>(unit() / std::max(1, generationsInRing()));
+    push.scale = static_cast<float>(light.unit);
     push.eye = eyeVoxel;
     push.voxelToWorld = glm::mat3(s.cloud.toWorld.linear);
     commands.pass("reconstruct");
-    commands.dispatch(s.reconstructProgram,
-                      {{"Sum", s.sum}, {"Moments", s.moments}, {"Collectors", s.places}, {"Radiance", s.radiance}},
-                      push, linearGroups(s.collectors, 64));
+    commands.dispatch(
+        s.reconstructProgram,
+        {{"Sum", *light.counts}, {"Moments", s.moments}, {"Collectors", s.places}, {"Radiance", s.radiance}}, push,
+        linearGroups(s.collectors, 64));
 }
 
 void PhotonMap::settle() {
@@ -202,16 +246,13 @@ const gpu::Buffer& PhotonMap::radiance() const {
     return state_->radiance;
 }
 int PhotonMap::generationsInRing() const {
-    return std::min(state_->traced, state_->options.generations);
+    return state_->options.keepRing ? std::min(state_->traced, state_->options.generations) : state_->traced;
 }
-const gpu::Buffer& PhotonMap::sum() const {
-    return state_->sum;
+Halves PhotonMap::halves() const {
+    return state_->halves;
 }
 std::uint32_t PhotonMap::depositBase() const {
     return state_->coefficients - static_cast<std::uint32_t>(state_->options.deposits.count());
-}
-double PhotonMap::depositUnit() const {
-    return unit() / std::max(1, generationsInRing());
 }
 double PhotonMap::photonPower() const {
     const double photons = static_cast<double>(state_->options.photonsPerGeneration) * std::max(1, generationsInRing());

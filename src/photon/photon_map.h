@@ -32,12 +32,29 @@ struct Options {
     bool keepRing = false;
     /// Cells in which the luminance that turns is counted, whatever its direction: finer than collectors can be.
     cloud::CellGrid deposits;
+    /// Whether generations of even and of odd number stay apart until the sum takes them: pictures of both tell how
+    /// noisy a picture of all is. Not with a ring.
+    bool keepHalves = false;
     std::uint64_t memoryBudget = std::uint64_t{1} << 30U;  ///< bytes for all coefficients
 };
 
 /// Sums over all generations traced.
 struct Counters {
     std::uint64_t emitted = 0, events = 0, nulls = 0, absorbed = 0, escaped = 0, lost = 0, records = 0, saturated = 0;
+};
+
+/// Which generations a view is of.
+enum class Part { all, even, odd };
+
+/// Generations that are known apart: those since the sum last took some.
+struct Halves {
+    int even = 0, odd = 0;
+};
+
+/// Coefficients and deposits, and the watts that a count of them stands for as the mean of the generations.
+struct Light {
+    const gpu::Buffer* counts = nullptr;
+    double unit = 0.0;
 };
 
 /// The photon map: a ring of generations, each [collector][RGB][bands²] int64 of spherical-harmonic coefficients and
@@ -55,18 +72,22 @@ class PhotonMap {
     /// Adds what has been traced to the sum; so do reconstruct() and downloadSum().
     void settle();
 
+    /// What the generations of a part have left; all of them are settled for it. A part needs `keepHalves` and a
+    /// generation in it; the sum takes nothing then.
+    Light light(Part part = Part::all);
+    Halves halves() const;
+
     /// Radiance of every collector towards the eye, and the luminance of its fluence [W·m⁻²], as vec4 in `radiance()`:
     /// recorded into `commands`.
-    void reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel);
+    void reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, const Light& light);
     const gpu::Buffer& radiance() const;
 
-    /// The sum of the generations, at whose index `depositBase()` the deposits begin: in `depositUnit()` each.
-    const gpu::Buffer& sum() const;
+    /// Where the deposits begin in the counts.
     std::uint32_t depositBase() const;
-    double depositUnit() const;  ///< W, as the mean of the generations in the ring
-    /// Luminance of a photon's power, as the mean of the generations in the ring [W].
+    /// Luminance of a photon's power, as the mean of all generations [W].
     double photonPower() const;
 
+    /// Without a ring: all that were traced.
     int generationsInRing() const;
     const Counters& counters() const;
     /// Milliseconds of each pass, summed, in the order of the passes.

@@ -30,7 +30,7 @@ TEST(StatisticsJson, HasEveryNumberUnderItsName) {
     s.gpuBytes = 10;
     s.passes = {{"trace", 1.25}, {"draw", 2.0}};
     s.warnings = {"odd"};
-    const std::string text = statisticsJson(s, 4.5, 12.5);
+    const std::string text = statisticsJson(s, {}, 4.5, 12.5);
     EXPECT_EQ(text.back(), '\n');
     const auto json = nlohmann::json::parse(text);
     EXPECT_EQ(json["device"], "a \"device\"\xef\xbf\xbd");
@@ -46,6 +46,24 @@ TEST(StatisticsJson, HasEveryNumberUnderItsName) {
     EXPECT_EQ(json["passes"],
               nlohmann::json::array({{{"name", "trace"}, {"ms", 1.25}}, {{"name", "draw"}, {"ms", 2.0}}}));
     EXPECT_EQ(json["warnings"], nlohmann::json::array({"odd"}));
+    EXPECT_FALSE(json.contains("progressive"));
+}
+
+TEST(StatisticsJson, SaysWhereAProgressivePictureStopped) {
+    Statistics s;
+    s.photons = 300;
+    s.generations = 3;
+    ProgressiveStatistics reached{"target-error", 0.25, 0.5, 1.5};
+    auto json = nlohmann::json::parse(statisticsJson(s, reached, 0.0, 0.0));
+    EXPECT_EQ(json["progressive"], nlohmann::json({{"stop", "target-error"},
+                                                   {"noise", 0.25},
+                                                   {"bias_estimate", 0.5},
+                                                   {"photons", 300},
+                                                   {"generations", 3},
+                                                   {"preview_seconds", 1.5}}));
+    reached.noise.reset();
+    json = nlohmann::json::parse(statisticsJson(s, reached, 0.0, 0.0));
+    EXPECT_TRUE(json["progressive"]["noise"].is_null());
 }
 
 TEST(SceneKinds, AreThoseOfTheProceduralClouds) {

@@ -52,6 +52,14 @@ TEST(MapLimits, TheBudgetIsKept) {
         << "a little too much does not read like what fits";
 }
 
+TEST(MapLimits, HalvesTakeAGenerationMore) {
+    const MapSize halves{1024, 8, 20, false, true};
+    EXPECT_EQ(mapBytes(halves), 9 * mebi / 2);
+    EXPECT_EQ(refusal(halves, 9 * mebi / 2, 128 * mebi), "");
+    EXPECT_THAT(refusal(halves, 9 * mebi / 2 - 1, 128 * mebi),
+                HasSubstr("3 times 1.50 MiB for the newest generation of each half and the sum of all"));
+}
+
 TEST(MapLimits, OneGenerationFitsIntoABufferOfTheDevice) {
     EXPECT_EQ(refusal({87381, 8, 1, false}, 1024 * mebi, 128 * mebi), "");
     EXPECT_THAT(refusal({87382, 8, 1, false}, 1024 * mebi, 128 * mebi),

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""What error stays however many photons there are, over shipped scenes: two Markdown tables for docs/error-time.md, from
+whose last columns, the largest over the scenes, src/progressive/bias.cpp has its figures.
+
+Bands: relMSE of pictures with 1 to 6 bands against one with 8 from the same photons, so that there is no noise in it.
+The rest: pictures with photons until their noise is low (`render --target-error`) against two independent references,
+less the noise. Run it after scripts/build.sh.
+"""
+
+from measuring import Lumulus, Table, finish, parser_of, run, size_sets
+
+SCENES = ["cumulus-side-lit", "cumulus-back-lit", "cumulus-front-lit", "cumulus-low-sun"]
+VARIANTS = {"march": [], "no cut": ["photon_map.forward_cut=0"], "billboards": ["draw.mode=billboards"]}
+
+
+def by_bands(lumulus, scenes):
+    """Rows of (bands, error by scene)."""
+    for scene in scenes:
+        lumulus.render(scene, lumulus.path(scene, 8), ["photon_map.bands=8"])
+    for bands in range(1, 7):
+        errors = []
+        for scene in scenes:
+            picture = lumulus.path(scene, bands)
+            lumulus.render(scene, picture, [f"photon_map.bands={bands}"])
+            errors.append(lumulus.compare(picture, lumulus.path(scene, 8))["relmse"])
+        yield bands, errors
+
+
+def of_the_rest(lumulus, scenes, spp, noise):
+    """Rows of (variant, error by scene)."""
+    truths = {scene: [lumulus.reference(scene, lumulus.path(scene, "truth", seed), spp=spp, seed=seed)
+                      for seed in (101, 102)] for scene in scenes}
+    for name, sets in VARIANTS.items():
+        errors = []
+        for scene in scenes:
+            picture = lumulus.path(scene, "picture")
+            stats = lumulus.render(scene, picture, sets, ["--target-error", noise])
+            errors.append(lumulus.compare(picture, *truths[scene])["relmse"] - stats["progressive"]["noise"])
+        yield name, errors
+
+
+def table(title, scenes, rows):
+    result = Table([title] + scenes + ["largest"])
+    for name, errors in rows:
+        result.add({title: name, **dict(zip(scenes, errors))},
+                   [str(name)] + [f"{error:.5f}" for error in errors + [max(errors)]])
+    print()
+    return result.figures
+
+
+def main():
+    parser = parser_of(__doc__, width=160)
+    parser.add_argument("--scenes", nargs="+", default=SCENES)
+    parser.add_argument("--spp", type=int, default=512, help="of each reference")
+    parser.add_argument("--noise", type=float, default=5e-4, help="relMSE of the photons' noise to stop at")
+    options = parser.parse_args()
+    lumulus = Lumulus(options)
+    lumulus.sets += size_sets(options.width)
+    scenes = lumulus.scenes(options.scenes)
+    finish(options, {"bands": table("bands", scenes, by_bands(lumulus, scenes)),
+                     "rest": table("many photons", scenes, of_the_rest(lumulus, scenes, options.spp, options.noise))})
+
+
+if __name__ == "__main__":
+    run(main)

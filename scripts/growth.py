@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""Growth of time with pixels and with photons: a plot, and the slopes on doubly logarithmic paper (1: linear). Needs
+Debian's python3-matplotlib.
+
+    scripts/growth.py -o docs/images/growth.svg --json build/growth.json
+"""
+
+import math
+import pathlib
+
+from measuring import Lumulus, finish, parser_of, run, size_sets
+
+try:
+    import matplotlib
+    matplotlib.use("svg")
+    from matplotlib import pyplot
+except ImportError as missing:
+    raise SystemExit(f"growth.py: {missing}: as root, run apt-get install python3-matplotlib")
+
+SCENE = "cumulus-side-lit"
+
+
+def slope(xs, ys):
+    """Of the straight line of least squares through the logarithms."""
+    a, b = [math.log(x) for x in xs], [math.log(y) for y in ys]
+    mean_a, mean_b = sum(a) / len(a), sum(b) / len(b)
+    return (sum((x - mean_a) * (y - mean_b) for x, y in zip(a, b)) / sum((x - mean_a) ** 2 for x in a))
+
+
+def measure(lumulus, name, sets):
+    """Seconds of one part of the run, the less of two: the first may compile shaders."""
+    return min(lumulus.render(SCENE, lumulus.path("picture"), sets)["seconds"][name] for _ in range(2))
+
+
+def with_pixels(lumulus, widths, mode):
+    few = ["photon_map.photons=100000", "photon_map.generations=1", f"draw.mode={mode}"]
+    return [(w * (w * 9 // 16), measure(lumulus, "draw", size_sets(w) + few)) for w in widths]
+
+
+def with_photons(lumulus, numbers):
+    return [(n, measure(lumulus, "trace", size_sets(64) + [f"photon_map.photons={n}", "photon_map.generations=10"]))
+            for n in numbers]
+
+
+def plot(figures, path):
+    matplotlib.rcParams.update({"svg.hashsalt": "lumulus", "font.size": 9})
+    picture, (left, right) = pyplot.subplots(1, 2, figsize=(9, 3.6))
+    for axes, names, title in ((left, ["march", "billboards"], "pixels"), (right, ["photons"], "photons")):
+        for name in names:
+            xs, ys = zip(*figures[name]["points"])
+            label = "tracing" if name == "photons" else name
+            axes.loglog(xs, ys, "o-", label=f"{label}: slope {figures[name]['slope']:.2f}")
+        xs, ys = zip(*figures[names[0]]["points"])
+        axes.loglog(xs, [ys[-1] * x / xs[-1] for x in xs], ":", color="grey", label="linear")
+        axes.set_xlabel(title)
+        axes.set_ylabel("seconds")
+        axes.grid(True, which="both", alpha=0.3)
+        axes.legend()
+    picture.tight_layout()
+    picture.savefig(path, metadata={"Date": None})
+
+
+def main():
+    parser = parser_of(__doc__)
+    parser.add_argument("--widths", nargs="+", type=int, default=[160, 320, 640, 1280, 2560])
+    parser.add_argument("--photons", nargs="+", type=float, default=[1e5, 3e5, 1e6, 3e6, 1e7])
+    parser.add_argument("-o", "--output", type=pathlib.Path, required=True)
+    options = parser.parse_args()
+    lumulus = Lumulus(options)
+    figures = {mode: {"points": with_pixels(lumulus, options.widths, mode)} for mode in ("march", "billboards")}
+    figures["photons"] = {"points": with_photons(lumulus, [int(n) for n in options.photons])}
+    for name, found in figures.items():
+        found["slope"] = slope(*zip(*found["points"]))
+        found["last_slope"] = slope(*zip(*found["points"][-2:]))
+        print(f"{name}: slope {found['slope']:.2f}, between the last two {found['last_slope']:.2f}: " +
+              ", ".join(f"{x} in {y:.2f} s" for x, y in found["points"]), flush=True)
+    plot(figures, options.output)
+    finish(options, figures)
+
+
+if __name__ == "__main__":
+    run(main)

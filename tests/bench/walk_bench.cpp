@@ -1,0 +1,198 @@
+// The GPU's photon walk against a plain C++ one on the same cores, in one run, and against what the machine could do at
+// best: walk_bench SCENE [section.key=value…], for example walk_bench configs/scenes/cumulus-side-lit.toml. Fails where
+// the two do not find the same light.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/machine_peaks.h"
+#include "bench/plain_walk.h"
+#include "gpu/context.h"
+#include "scene/load.h"
+#include "volume/load.h"
+
+namespace lumulus::bench {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t photons = 100000;  // of a generation
+constexpr int generations = 5;             // of a turn
+constexpr int turns = 5;                   // of each, in alternation: other work on the machine meets both
+
+/// Seconds of all threads of this process.
+double cpuSeconds() {
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+/// By the clock, and in time of the cores, which other work on the machine does not stretch as much.
+struct Duration {
+    double wall = 0.0, cpu = 0.0;
+};
+
+template <class Work>
+Duration timeOf(const Work& work) {
+    const double cpu = cpuSeconds();
+    const Clock::time_point start = Clock::now();
+    work();
+    return {std::chrono::duration<double>(Clock::now() - start).count(), cpuSeconds() - cpu};
+}
+
+struct Measured {
+    std::vector<Duration> times;
+    double events = 0.0, nulls = 0.0, records = 0.0;
+    std::vector<double> light;  ///< by channel: sums of the coefficients of y_00 [W]
+
+    double photonCount() const { return static_cast<double>(times.size()) * generations * photons; }
+    /// Collisions a second, by the median.
+    double rate(double Duration::*clock) const {
+        std::vector<double> sorted;
+        for (const Duration& time : times) sorted.push_back(time.*clock);
+        std::sort(sorted.begin(), sorted.end());
+        return events / static_cast<double>(sorted.size()) / sorted[sorted.size() / 2];
+    }
+};
+
+photon::Medium mediumOf(const scene::Scene& scene, const vdb::Volume& volume) {
+    const scene::Cloud& cloud = scene.clouds.at(0);
+    return {cloud.extinction * cloud.densityScale * static_cast<double>(volume.maximum), cloud.albedo,
+            phase::makeScatteringTables(cloud.phase, glm::radians(scene.photonMap.forwardCut), cloud.albedo,
+                                        PlainWalk::bands, glm::radians(scene.sun.angularDiameter))};
+}
+
+cloud::PrepareOptions prepareOptions(const scene::Scene& scene, const photon::Medium& medium) {
+    cloud::PrepareOptions options;
+    options.preparation = scene.preparation;
+    options.majorant = scene.photonMap.majorant;
+    options.reducedExtinction = medium.extinction * static_cast<double>(medium.tables.turnFraction) *
+                                (1.0 - static_cast<double>(medium.tables.bandMoments[1]));
+    return options;
+}
+
+template <class Number>
+void addLight(std::vector<double>& light, const std::vector<Number>& sums, double unit) {
+    constexpr std::size_t each = PlainWalk::bands * PlainWalk::bands;
+    light.resize(3, 0.0);
+    for (std::size_t i = 0; i < sums.size(); i += each) light[i / each % 3] += static_cast<double>(sums[i]) * unit;
+}
+
+void measureGpu(Measured& gpu, photon::PhotonMap& map, const scene::Scene& scene) {
+    const photon::Counters before = map.counters();
+    gpu.times.push_back(timeOf([&] {
+        for (int i = 0; i < generations; ++i) map.trace(scene.sun, scene.sky);
+        map.settle();
+    }));
+    gpu.events += static_cast<double>(map.counters().events - before.events);
+    gpu.nulls += static_cast<double>(map.counters().nulls - before.nulls);
+    gpu.records += static_cast<double>(map.counters().records - before.records);
+}
+
+void measurePlain(Measured& plain, const PlainWalk& walk, const scene::Scene& scene, std::uint64_t seed) {
+    WalkResult result;
+    plain.times.push_back(timeOf([&] { result = walk.trace(scene.sun, scene.sky, generations * photons, seed); }));
+    plain.events += static_cast<double>(result.events);
+    plain.nulls += static_cast<double>(result.nulls);
+    plain.records += static_cast<double>(result.records);
+    addLight(plain.light, result.sums, 1.0 / turns);
+}
+
+/// Seconds that the GPU's work takes at least. Operations counted in the shaders, on the low side: a tentative
+/// collision takes 110 (random numbers 40, logarithm 20, a trilinear look-up 50), the step to it 45; a real one 140
+/// (random numbers, phase function, rotation); a record 530, of which 110 are 36 harmonics and 324 their sums. Bytes: a
+/// record is written and read, then its sorted copy, 56; each collector's coefficients are read and written once a
+/// generation. The volume is taken to stay in the caches.
+double floorSeconds(const Measured& gpu, std::size_t collectors, const MachinePeaks& peaks, double& bytesSeconds) {
+    const double operations = 155.0 * (gpu.events + gpu.nulls) + 140.0 * gpu.events + 530.0 * gpu.records;
+    const double flushed = static_cast<double>(collectors) * 3 * PlainWalk::bands * PlainWalk::bands * 16.0;
+    const double bytes = 56.0 * gpu.records + flushed * generations * static_cast<double>(gpu.times.size());
+    bytesSeconds = bytes / peaks.bytes;
+    return operations / peaks.operations;
+}
+
+void require(bool good, const std::string& what) {
+    if (!good) throw std::runtime_error("the walks differ in " + what);
+}
+
+/// The same work and the same light, but for noise (about 1e-3 of a million photons).
+void requireSame(const Measured& gpu, const Measured& plain) {
+    const auto near = [](double a, double b) { return std::abs(a - b) <= 0.01 * std::abs(b); };
+    require(near(gpu.events, plain.events), fmt::format("collisions: {} and {}", gpu.events, plain.events));
+    require(near(gpu.nulls, plain.nulls), fmt::format("null collisions: {} and {}", gpu.nulls, plain.nulls));
+    require(near(gpu.records, plain.records), fmt::format("records: {} and {}", gpu.records, plain.records));
+    for (std::size_t i = 0; i < 3; ++i)
+        require(near(gpu.light[i], plain.light[i]), fmt::format("light: {} and {}", gpu.light[i], plain.light[i]));
+}
+
+void print(const Measured& gpu, const Measured& plain, std::size_t collectors) {
+    const MachinePeaks peaks = measurePeaks();
+    fmt::print("{} collectors, {} bands, RGB; a photon has {:.2f} collisions, {:.2f} null collisions, {:.2f} records\n",
+               collectors, PlainWalk::bands, gpu.events / gpu.photonCount(), gpu.nulls / gpu.photonCount(),
+               gpu.records / gpu.photonCount());
+    fmt::print("                        GPU walk    C++ walk  ratio GPU/C++\n");
+    for (const auto& [name, clock] :
+         {std::pair("collisions a second", &Duration::wall), std::pair("… of one core's time", &Duration::cpu)})
+        fmt::print("{:<20}{:>12.3g}{:>12.3g}{:>13.2f}\n", name, gpu.rate(clock), plain.rate(clock),
+                   gpu.rate(clock) / plain.rate(clock));
+    double bytes = 0.0;
+    const double operations = floorSeconds(gpu, collectors, peaks, bytes),
+                 taken = gpu.events / gpu.rate(&Duration::wall);
+    fmt::print("machine:     {:.3g} operations a second, {:.3g} bytes a second\n", peaks.operations, peaks.bytes);
+    fmt::print("time over the floor: {:.1f} (operations {:.3f} s, bytes {:.3f} s, taken {:.3f} s)\n",
+               taken / std::max(operations, bytes), operations, bytes, taken);
+}
+
+void run(const std::string& path, const std::vector<std::string>& overrides) {
+    const scene::Scene scene = scene::loadScene(path, overrides);
+    const vdb::Volume volume = loadCloudVolume(scene.clouds.at(0), scene.preparation.memoryBudget).volume;
+    const photon::Medium medium = mediumOf(scene, volume);
+    gpu::Context context({});
+    const cloud::Cloud cloud = cloud::prepare(context, volume, prepareOptions(scene, medium));
+    photon::Options options;
+    options.photonsPerGeneration = photons;
+    options.bands = PlainWalk::bands;
+    photon::PhotonMap map(context, cloud, medium, options);
+    const PlainWalk walk(volume, cloud, medium);
+
+    Measured gpu, plain, warmUp;
+    measureGpu(warmUp, map, scene);  // compiles the shaders
+    measurePlain(warmUp, walk, scene, 0);
+    for (int turn = 1; turn <= turns; ++turn) {
+        measureGpu(gpu, map, scene);
+        measurePlain(plain, walk, scene, static_cast<std::uint64_t>(turn));
+    }
+    addLight(gpu.light, map.downloadSum(), map.unit() / ((turns + 1.0) * generations));
+    requireSame(gpu, plain);
+    print(gpu, plain, cloud.collectors.size());
+}
+
+}  // namespace
+
+}  // namespace lumulus::bench
+
+int main(int argc, char** argv) {
+    if (argc < 2) {
+        fmt::print(stderr, "usage: walk_bench SCENE [section.key=value…]\n");
+        return 2;
+    }
+    try {
+        lumulus::bench::run(argv[1], {argv + 2, argv + argc});
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "walk_bench: {}\n", e.what());
+        return 1;
+    }
+    return 0;
+}

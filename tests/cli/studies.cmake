@@ -1,0 +1,13 @@
+# The scripts that measure take minutes to an hour: here the smallest that makes them run. Those that need packages
+# beyond scripts/install_packages.sh are left out.
+set(tiny --lumulus $<TARGET_FILE:lumulus> --width 32 --set cloud.0.resolution=24 --set photon_map.photons=4000
+         --set preparation.samples=500)
+function(lumulus_study name)
+  add_test(NAME studies.${name} COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/scripts/${name}.py ${tiny} ${ARGN})
+  set_tests_properties(studies.${name} PROPERTIES TIMEOUT 300)
+endfunction()
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+lumulus_study(scores --scenes cirrus --spp 2)
+lumulus_study(camera_move --scenes cirrus --spp 1)
+lumulus_study(scaling --resolutions 24 --collectors 200 --photons 1000)
+lumulus_study(bias_table --scenes cirrus --spp 2 --noise 0.05)
