@@ -80,7 +80,8 @@ ProgressiveStatistics traceProgressively(Renderer& renderer, const RenderOptions
     const progressive::Goal goal{options.seconds, options.targetError, writingForecast(options, scene.image)};
     const auto reached = progressive::traceUntil(
         renderer, goal, [start] { return secondsSince(start); }, steps.reporter());
-    return {progressive::nameOf(reached.stop), reached.noise, progressive::biasEstimate(scene), reached.previewSeconds};
+    return {progressive::nameOf(reached.stop), reached.noise,
+            progressive::biasEstimate(scene, renderer.statistics().photons), reached.previewSeconds};
 }
 
 /// Says on the terminal what was reached.
@@ -97,7 +98,7 @@ void tellReached(const RenderOptions& options, const Statistics& statistics, con
         logWarning(fmt::format("{:g} s were too short for this scene: it took {:.2f} s with {} photons",
                                *options.seconds, seconds, statistics.photons));
     if (options.targetError && *options.targetError < reached.biasEstimate)
-        logWarning(fmt::format("the bias of relMSE {:.2g} is larger than the target {:g}: photons do not lower it",
+        logWarning(fmt::format("the bias of relMSE {:.2g} is larger than the target {:g}, and photons hardly lower it",
                                reached.biasEstimate, *options.targetError));
 }
 

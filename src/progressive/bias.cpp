@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace lumulus::progressive {
@@ -10,15 +11,17 @@ namespace {
 
 /// Of truncated harmonics, by bands, 1 to 8.
 constexpr std::array<double, 8> truncated{0.047, 0.012, 0.0021, 4e-4, 7e-5, 0.0, 0.0, 0.0};
-/// Of cells of the light field and of leaves as large as the mean free path: marched, and what the forward peak left in
-/// the walk and billboards add.
-constexpr double space = 0.007, withoutCut = 0.003, billboards = 0.03;
+/// Of cells of the light field and of leaves as large as the mean free path, with so many photons; fewer photons have
+/// larger cells, a power of which fits what was measured from 2e5 on. What the forward peak left in the walk and
+/// billboards add.
+constexpr double space = 0.0058, manyPhotons = 8e6, growth = 0.26, withoutCut = 0.003, billboards = 0.03;
 
 }  // namespace
 
-double biasEstimate(const scene::Scene& scene) {
+double biasEstimate(const scene::Scene& scene, std::uint64_t photons) {
     const auto bands = static_cast<std::size_t>(std::clamp(scene.photonMap.bands, 1, 8));
-    double bias = truncated[bands - 1] + space;
+    const double fewer = manyPhotons / std::clamp(static_cast<double>(photons), 1e4, manyPhotons);
+    double bias = truncated[bands - 1] + space * std::pow(fewer, growth);
     if (scene.photonMap.forwardCut == 0.0) bias += withoutCut;
     if (scene.draw.mode == scene::DrawMode::billboards) bias += billboards;
     return bias;
