@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
     # tools
-    g++ cmake ninja-build ccache glslang-tools pkg-config python3
+    g++ cmake ninja-build ccache glslang-tools pkg-config python3 python3-numpy
     # clouds and pictures
     libopenvdb-dev libboost-iostreams-dev libtbb-dev libopenexr-dev libpng-dev
     # plots

@@ -3,9 +3,10 @@
 import math
 import random
 
+from stability_tools import Failure, Outcome  # first: it says where the EXR files' modules are
+
 from exr_reader import read_exr
 from exr_writer import write_exr
-from stability_tools import Failure, Outcome
 
 CAMERA = "cloud = []\n[camera]\nposition = {eye}\ntarget = {target}\nup = {up}\nvertical_fov = 60\n"
 
@@ -49,16 +50,16 @@ def rows():
             yield kept(f"visibility {visibility:g} m, g {g:g}", "nothing is absorbed: all light is kept",
                        f"visibility = {visibility}\ng = {g}\n", 1.0)
     for falloff in (1e-9, 1e-3, 0.1, 10):
-        medium = f'kind = "exponential"\nabsorption = 0.01\nfalloff = {falloff}\n'
-        depth = -0.01 * math.expm1(-falloff * 1e4) / falloff
+        medium = f'kind = "exponential"\nabsorption = 1e-4\nfalloff = {falloff}\n'
+        depth = -1e-4 * math.expm1(-falloff * 1e4) / falloff
         yield kept(f"falloff {falloff:g}, looking down from 10 km", "∫ϱ to the ground in closed form", medium,
                    math.exp(-depth), 0.01, distance=lambda i: 1e4, eye=(0, 1e4, 0), target=(0, 0, 0), up=(0, 0, -1), width=1,
                    height=1)
-        above = 0.01 * math.exp(-falloff * 100) * 1000
+        above = 1e-4 * math.exp(-falloff * 100) * 1000
         yield kept(f"falloff {falloff:g}, exactly level at 100 m", "the same density along the whole path", medium,
                    math.exp(-above), 1e-3, distance=lambda i: 1000.0, eye=(0, 100, 0), target=(0, 100, -1), width=1,
                    height=1)
-        up = 0.01 * math.exp(-falloff * 1e4) * (-math.expm1(-falloff * 5e4) / falloff)
+        up = 1e-4 * math.exp(-falloff * 1e4) * (-math.expm1(-falloff * 5e4) / falloff)
         yield kept(f"falloff {falloff:g}, looking up from 10 km", "∫ϱ over 50 km in closed form", medium, math.exp(-up), 1e-3,
                    distance=lambda i: 5e4, eye=(0, 1e4, 0), target=(0, 2e4, 0), up=(0, 0, -1), width=1, height=1)
     sphere = 'kind = "sphere"\nabsorption = 0.01\nradius = 100\n'
