@@ -133,10 +133,10 @@ def size_table(bench):
             images.append(image.reshape(180, factor, 320, factor, 3).mean(axis=(1, 3)))
         truth = images[-1]
         cells = [((i - truth) ** 2 / (truth ** 2 + 0.01 * truth.mean() ** 2)).mean() for i in images[:-1]]
-        print(f"| σs {scattering}, g {g} | " + " | ".join(f"{100 * c:.2f} %" for c in cells) + " |", flush=True)
+        print(f"| σs {scattering}, g {g} | " + " | ".join(f"{100 * c:.2g} %" for c in cells) + " |", flush=True)
 
 
-def time_table(bench, repeats=5):
+def time_table(bench, repeats=3):
     """Milliseconds of the passes, the least of several runs, at 1280×720, and the growth with pixels."""
     def milliseconds(picture, overrides):
         scene = fog_scenes.scene_text(fog_scenes.medium(*fog_scenes.MEDIA[2]))
