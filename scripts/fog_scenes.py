@@ -19,6 +19,7 @@ from exr_writer import write_exr  # noqa: E402
 FIELD_OF_VIEW = 40.0  # degrees, of the height
 EYE = numpy.array([0.0, 6.0, 0.0])
 SKY_DISTANCE = 1e10
+FOG_ENDS = 1000.0  # metres: the masked filter's blurred depth drowns in a farther sky
 
 # σs [1/m] and g, from clear to dense
 MEDIA = [(0.004, 0.99), (0.002, 0.95), (0.01, 0.9), (0.03, 0.9)]
@@ -102,10 +103,10 @@ def write(path, radiance, distance):
 
 
 def scene_text(media, yaw=0.0):
-    """A scene file for composite; `media` is the text of [[fog.media]] entries."""
+    """A scene file for composite; `media` is the text of [[fog.media]] entries, before which other keys of [fog] may stand."""
     target = EYE + numpy.array([math.sin(math.radians(yaw)), 0.0, -math.cos(math.radians(yaw))])
     return (f"cloud = []\n[camera]\nposition = {list(map(float, EYE))}\ntarget = {list(map(float, target))}\n"
-            f"vertical_fov = {FIELD_OF_VIEW}\n{media}")
+            f"vertical_fov = {FIELD_OF_VIEW}\n[fog]\nsky_distance = {FOG_ENDS}\n{media}")
 
 
 def medium(scattering, g):

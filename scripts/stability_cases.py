@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Callable
 
 from layers import layer
+from stability_fog import fog_cases
 from stability_tools import Failure, Outcome, mean_and_error
 
 
@@ -321,4 +322,4 @@ def all_groups(spp):
     return (("Layers (`lumulus slab`)", list(layers())), ("White furnace", list(furnaces())),
             ("Media", list(media(spp))), ("Density fields", list(fields(spp))),
             ("Shapes and places", list(places(spp))), ("Cameras and suns", list(cameras(spp))),
-            ("Photon map", list(maps(spp))))
+            ("Photon map", list(maps(spp))), ("Fog (`lumulus composite`)", list(fog_cases(Case))))

@@ -9,7 +9,7 @@ layout(binding = 1) uniform sampler2D sharp;
 layout(binding = 2) uniform sampler2D across;  // shares of each source of the band in each column
 layout(binding = 3) uniform sampler2D down;    // and in each row
 layout(binding = 4, rgba32f) uniform image2D result;
-layout(push_constant, scalar) uniform Push { GatherPush push; };
+layout(push_constant, scalar) uniform Push { ExactPush push; };
 
 void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

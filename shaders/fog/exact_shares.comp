@@ -8,7 +8,7 @@ layout(local_size_x = 16, local_size_y = 4) in;
 layout(constant_id = 0) const int AXIS = 0;
 layout(binding = 0) uniform sampler2D scattered;  // alpha: spread
 layout(binding = 1) uniform writeonly image2D shares;  // [source of the band][pixel along the axis]
-layout(push_constant, scalar) uniform Push { GatherPush push; };
+layout(push_constant, scalar) uniform Push { ExactPush push; };
 
 /// Beyond this many standard deviations nothing of a Gaussian is left in a float: e^(−6.5²/2) = 7e-10.
 const float REACH = 6.5;

@@ -79,7 +79,7 @@ struct FetchPush {
 };
 
 /// A band of sources of the exact filter.
-struct GatherPush {
+struct ExactPush {
     ivec2 size;
     int firstRow;
     int rows;
@@ -176,7 +176,7 @@ static_assert(sizeof(FogPush) == 72 && offsetof(FogPush, last) == 68);
 static_assert(sizeof(LevelPush) == 60 && offsetof(LevelPush, levelScale) == 56);
 static_assert(sizeof(SeparationPush) == 20 && offsetof(SeparationPush, spread) == 16);
 static_assert(sizeof(FetchPush) == 32 && offsetof(FetchPush, separationLevel) == 28);
-static_assert(sizeof(GatherPush) == 16 && offsetof(GatherPush, rows) == 12);
+static_assert(sizeof(ExactPush) == 16 && offsetof(ExactPush, rows) == 12);
 #endif
 
 SHARED_END

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/exr.h"
@@ -114,6 +115,10 @@ void runComposite(const CompositeOptions& options) {
     const Stopwatch drawing;
     if (!scene.fog.media.empty()) applyFog(color, options, scene, statistics);
     statistics.drawSeconds = drawing.seconds();
+    // depth and whatever else the file held is not what is seen through the fog
+    std::erase_if(color.layers, [](const auto& layer) {
+        return layer.first.size() != 1 || std::string_view("RGBA").find(layer.first) == std::string_view::npos;
+    });
     color.attributes["scene"] = scene.source;
     color.attributes["software"] = std::string("lumulus ") + version;
 

@@ -46,7 +46,7 @@ void Exact::recordLight(gpu::Commands& commands, const LayerInputs& layer) {
 
 int Exact::recordSources(gpu::Commands& commands, int firstRow, const gpu::Image& result) {
     const int rows = std::min(rowsAtOnce_, size_.y - firstRow);
-    const shared::GatherPush push{size_, firstRow, rows};
+    const shared::ExactPush push{size_, firstRow, rows};
     commands.pass("fog exact");
     commands.dispatch(shareAcross_, {{"scattered", scattered_, gpu::Sampler::nearest}, {"shares", across_}}, push,
                       pixelGroups({size_.x, rows * size_.x}));

@@ -21,7 +21,7 @@ class Exact {
     int rowsAtOnce_;
     gpu::Image sharp_, scattered_, across_, down_;
     gpu::Program<shared::FogPush> prepare_;
-    gpu::Program<shared::GatherPush> shareAcross_, shareDown_, spread_;
+    gpu::Program<shared::ExactPush> shareAcross_, shareDown_, spread_;
 };
 
 }  // namespace lumulus::fog

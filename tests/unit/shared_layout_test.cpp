@@ -9,6 +9,7 @@
 #include "gpu/shaders/interface.h"
 #include "shared/cloud.h"
 #include "shared/draw.h"
+#include "shared/fog.h"
 #include "shared/photon.h"
 #include "support/struct_layout.h"
 
@@ -28,6 +29,11 @@ namespace spirv {
 #include "spirv/draw/collector_sun.comp.h"
 #include "spirv/draw/light_cells.comp.h"
 #include "spirv/draw/sun_depth.comp.h"
+#include "spirv/fog/chain_fetch.comp.h"
+#include "spirv/fog/exact.comp.h"
+#include "spirv/fog/masked_prepare.comp.h"
+#include "spirv/fog/scatter_down.comp.h"
+#include "spirv/fog/scatter_prepare.comp.h"
 #include "spirv/gpu/shaders/layout.comp.h"
 #include "spirv/photon/accumulate.comp.h"
 #include "spirv/photon/gather.comp.h"
@@ -115,6 +121,17 @@ TEST(SharedLayout, Draw) {
     EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, scale, depositCells, depositsAcross, depositBase,
                 depositScale, massScale, prior);
     EXPECT_PUSH(collector_sun_comp, CollectorSunPush, voxelToTexture, textureOffset, inverseSize, collectors);
+}
+
+TEST(SharedLayout, Fog) {
+    EXPECT_LAYOUT(scatter_prepare_comp, FogMedium, kind, scattering, absorption, emission, g, axis, falloff, eyeHeight,
+                  center, radius);
+    EXPECT_PUSH(scatter_prepare_comp, FogPush, view, pixelsPerRadian, skyDistance, media, last);
+    EXPECT_PUSH(scatter_down_comp, LevelPush, finerOffset, finerSize, coarserOffset, coarserSize, finerExtent,
+                inverseImage, level, last, levelScale);
+    EXPECT_PUSH(masked_prepare_comp, SeparationPush, size, strength, luminance, spread);
+    EXPECT_PUSH(chain_fetch_comp, FetchPush, size, inverseImage, last, levelScale, depthLookups, separationLevel);
+    EXPECT_PUSH(exact_comp, ExactPush, size, firstRow, rows);
 }
 
 }  // namespace
