@@ -3,21 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 
 #include "base/error.h"
 #include "base/interrupt.h"
-#include "cloud/cloud.h"
-#include "draw/billboards.h"
-#include "draw/camera.h"
-#include "draw/collector_sun.h"
-#include "draw/light_field.h"
-#include "draw/march.h"
 #include "draw/sky.h"
-#include "draw/sun_depth.h"
 #include "draw/view.h"
-#include "gpu/commands.h"
-#include "photon/photon_map.h"
+#include "renderer_state.h"
 #include "volume/load.h"
 
 namespace lumulus {
@@ -32,15 +23,11 @@ double secondsSince(Clock::time_point start) {
 
 constexpr double degrees = 3.14159265358979323846 / 180.0;
 
-double largest(const glm::dvec3& v) {
-    return std::max(v.x, std::max(v.y, v.z));
-}
-
 /// Rows drawn at once, in whole tiles: few enough that progress and Ctrl-C do not wait long, and 2^18 pixels at most.
-int bandRows(const Camera& camera) {
+int bandRows(const Tile& tile) {
     constexpr int bands = 32;
-    const int tiles = (camera.height + bands * shared::TILE_EDGE - 1) / (bands * shared::TILE_EDGE);
-    const int most = (1 << 18) / (camera.width * shared::TILE_EDGE);
+    const int tiles = (tile.height + bands * shared::TILE_EDGE - 1) / (bands * shared::TILE_EDGE);
+    const int most = (1 << 18) / (tile.width * shared::TILE_EDGE);
     return std::max(1, std::min(tiles, most)) * shared::TILE_EDGE;
 }
 
@@ -53,46 +40,6 @@ void addTime(std::vector<PassTime>& times, const gpu::PassTime& pass) {
 }
 
 }  // namespace
-
-struct Renderer::State {
-    State(const scene::Scene& theScene, const RendererOptions& options)
-        : scene(theScene), report(options.report), context({options.device, options.validation}), commands(context) {}
-
-    scene::Scene scene;
-    Report report;
-    gpu::Context context;
-    gpu::Commands commands;
-    Camera camera;
-
-    // What follows exists only where the scene needs it.
-    photon::Medium medium;
-    std::optional<cloud::Cloud> cloud;
-    std::optional<photon::PhotonMap> photons;
-    std::optional<draw::SunDepth> sunDepth;
-    std::optional<draw::CollectorSun> collectorSun;
-    std::optional<draw::PhaseTables> phase;
-    std::optional<draw::LightField> lightField;
-    std::optional<draw::Billboards> billboards;
-    std::optional<draw::March> march;
-
-    bool sunDrawn = false;  // the sun's depths are up to date
-    Statistics statistics;
-
-    bool scatters() const { return largest(medium.albedo) > 0.0; }
-    bool hasSun() const { return largest(scene.sun.irradiance) > 0.0; }
-    bool hasLight() const { return hasSun() || largest(scene.sky.radiance) > 0.0; }
-
-    void makeMedium(const scene::Cloud& from, double maximum);
-    void prepareCloud(const vdb::Volume& volume);
-    void preparePhotons();
-    void drawCloud(LayeredImage& image);
-    void prepareDrawing();
-    shared::FieldParams fieldParams() const;
-    void recordLight();
-    void drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params, int firstRow, int rows);
-    glm::dvec3 toVoxel(const glm::dvec3& world) const;
-    glm::vec3 eyeVoxel() const;
-};
 
 void Renderer::State::makeMedium(const scene::Cloud& from, double maximum) {
     medium.extinction = from.extinction * from.densityScale * maximum;
@@ -125,6 +72,7 @@ void Renderer::State::preparePhotons() {
     options.firstGeneration = static_cast<std::uint32_t>(wanted.firstGeneration);
     options.bands = wanted.bands;
     options.seed = wanted.seed;
+    options.keepRing = keepRing;
     options.memoryBudget = static_cast<std::uint64_t>(std::ldexp(wanted.memoryBudget, 20));
     photons.emplace(context, *cloud, medium, options);
 }
@@ -134,14 +82,15 @@ Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
     State& s = *state_;
     s.statistics.device = s.context.device().name;
     if (scene.clouds.empty()) {
-        s.camera = makeCamera(scene.camera, scene.image, Bounds{});
+        makeCamera(scene.camera, scene.image, Bounds{});  // what is wrong with it shows before the work
         return;
     }
     auto start = Clock::now();
     CloudVolume loaded = loadCloudVolume(scene.clouds[0], scene.preparation.memoryBudget, s.report);
     s.statistics.warnings = std::move(loaded.warnings);
     s.statistics.loadSeconds = secondsSince(start);
-    s.camera = makeCamera(scene.camera, scene.image, boundsOf(loaded.volume));
+    s.bounds = boundsOf(loaded.volume);
+    makeCamera(scene.camera, scene.image, s.bounds);
     if (loaded.volume.empty()) return;
 
     start = Clock::now();
@@ -168,6 +117,7 @@ void Renderer::traceGeneration() {
     State& s = *state_;
     const auto start = Clock::now();
     if (s.photons) s.photons->trace(s.scene.sun, s.scene.sky);
+    ++s.sinceChange;
     s.statistics.traceSeconds += secondsSince(start);
 }
 
@@ -175,7 +125,6 @@ void Renderer::State::prepareDrawing() {
     const draw::DrawFeatures features{!medium.tables.oneTurnH.empty(), scatters() && hasSun(), photons.has_value(),
                                       medium.albedo == glm::dvec3(medium.albedo.x)};
     if (features.sun) sunDepth.emplace(context, *cloud);
-    if (features.photons) lightField.emplace(context, *cloud, static_cast<std::uint64_t>(scene.photonMap.photons));
     phase.emplace(context, medium.tables);
     if (scene.draw.mode == scene::DrawMode::billboards) {
         billboards.emplace(context, *cloud, features);
@@ -225,6 +174,11 @@ void Renderer::State::recordLight() {
         sunDrawn = true;
     }
     if (photons) {
+        if (const std::uint64_t seen = std::max<std::uint64_t>(1, photons->photonsInRing());
+            seen != lightFieldPhotons) {
+            lightField.emplace(context, *cloud, seen);
+            lightFieldPhotons = seen;
+        }
         photons->reconstruct(commands, eyeVoxel());
         commands.barrier("collector radiance");
         lightField->record(commands, photons->radiance());
@@ -237,7 +191,9 @@ void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inp
     values.view = draw::viewParams(camera);
     values.light = draw::lightParams(scene.sun, scene.sky, medium.albedo, medium.tables);
     values.field = fieldParams();
-    values.firstRow = firstRow;
+    values.firstColumn = tile.x;
+    values.columns = tile.width;
+    values.firstRow = tile.y + firstRow;
     values.rows = rows;
     values.samples =
         draw::raysAcross(camera, cloud->toWorld.point(0.5 * glm::dvec3(cloud->size)), std::cbrt(cloud->voxelVolume));
@@ -265,31 +221,44 @@ void Renderer::State::drawCloud(LayeredImage& image) {
     if (billboards)
         billboards->prepare(camera, medium.extinction,
                             collectorSun ? collectorSun->values() : std::span<const float>());
-    const int band = bandRows(camera);
+    const int band = bandRows(tile);
     gpu::Buffer params(context, "draw params", sizeof(shared::DrawParams), gpu::Memory::host);
     const gpu::Buffer pixels(
         context, "pixels",
-        static_cast<std::uint64_t>(band) * static_cast<std::uint64_t>(camera.width) * sizeof(shared::Pixel),
+        static_cast<std::uint64_t>(band) * static_cast<std::uint64_t>(tile.width) * sizeof(shared::Pixel),
         gpu::Memory::host);
     // Stands for fields that the scene does not have: the shaders never read it, but every binding must be there.
     const gpu::Image none(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT);
     const draw::FrameInputs inputs{params, *phase, lightField ? lightField->image() : none,
                                    sunDepth ? sunDepth->image() : none, pixels};
-    const auto bands = static_cast<std::uint64_t>((camera.height + band - 1) / band);
+    const auto bands = static_cast<std::uint64_t>((tile.height + band - 1) / band);
     report("drawing", 0, bands);
     for (std::uint64_t done = 0; done < bands; ++done) {
         stopIfInterrupted();
         const int row = static_cast<int>(done) * band;
-        drawBand(image, inputs, params, row, std::min(band, camera.height - row));
+        drawBand(image, inputs, params, row, std::min(band, tile.height - row));
         report("drawing", done + 1, bands);
     }
     statistics.gpuBytes = context.allocatedBytes();
 }
 
 LayeredImage Renderer::draw() {
+    return draw(sceneView());
+}
+
+View Renderer::sceneView() const {
+    View view;
+    view.camera = state_->scene.camera;
+    view.image = state_->scene.image;
+    return view;
+}
+
+LayeredImage Renderer::draw(const View& view) {
     State& s = *state_;
     const auto start = Clock::now();
-    LayeredImage image = draw::skyImage(s.camera, s.scene.sun, s.scene.sky);
+    s.camera = makeCamera(view, s.bounds);
+    s.tile = drawnTile(view);
+    LayeredImage image = draw::skyImage(s.camera, s.tile, s.scene.sun, s.scene.sky);
     s.statistics.passes.clear();
     if (s.photons) {
         s.photons->settle();

@@ -58,6 +58,12 @@ class PhotonMap {
     const gpu::Buffer& radiance() const;
 
     int generationsInRing() const;
+    /// Number of the oldest generation in the ring; where nothing was traced, of the next.
+    std::uint64_t firstInRing() const;
+    std::uint64_t photonsInRing() const;
+    /// σt at density 1 [1/m] for the generations from now on. Radiance is then the mean over the ring, each generation
+    /// weighted by its extinction. Needs keepRing.
+    void setExtinction(double extinction);
     const Counters& counters() const;
     /// Milliseconds of each pass, summed, in the order of the passes.
     std::vector<gpu::PassTime> times() const;
