@@ -73,6 +73,7 @@ void Renderer::State::preparePhotons() {
     options.bands = wanted.bands;
     options.seed = wanted.seed;
     options.keepRing = keepRing;
+    options.check = check;
     options.memoryBudget = static_cast<std::uint64_t>(std::ldexp(wanted.memoryBudget, 20));
     photons.emplace(context, *cloud, medium, options);
 }
@@ -195,8 +196,7 @@ void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inp
     values.columns = tile.width;
     values.firstRow = tile.y + firstRow;
     values.rows = rows;
-    values.samples =
-        draw::raysAcross(camera, cloud->toWorld.point(0.5 * glm::dvec3(cloud->size)), std::cbrt(cloud->voxelVolume));
+    values.samples = raysAcross;
     values.tilesAcross = billboards ? billboards->tilesAcross() : 0;
     params.mapped<shared::DrawParams>()[0] = values;
     commands.begin();
@@ -234,7 +234,7 @@ void Renderer::State::drawCloud(LayeredImage& image) {
     const auto bands = static_cast<std::uint64_t>((tile.height + band - 1) / band);
     report("drawing", 0, bands);
     for (std::uint64_t done = 0; done < bands; ++done) {
-        stopIfInterrupted();
+        check();
         const int row = static_cast<int>(done) * band;
         drawBand(image, inputs, params, row, std::min(band, tile.height - row));
         report("drawing", done + 1, bands);
@@ -253,11 +253,24 @@ View Renderer::sceneView() const {
     return view;
 }
 
+int Renderer::raysAcross(const View& view) const {
+    const State& s = *state_;
+    if (!s.cloud) return 1;
+    const glm::dvec3 centre = s.cloud->toWorld.point(0.5 * glm::dvec3(s.cloud->size));
+    return std::min(view.mostRays,
+                    draw::raysAcross(makeCamera(view, s.bounds), centre, std::cbrt(s.cloud->voxelVolume)));
+}
+
+const Bounds& Renderer::bounds() const {
+    return state_->bounds;
+}
+
 LayeredImage Renderer::draw(const View& view) {
     State& s = *state_;
     const auto start = Clock::now();
     s.camera = makeCamera(view, s.bounds);
     s.tile = drawnTile(view);
+    s.raysAcross = raysAcross(view);
     LayeredImage image = draw::skyImage(s.camera, s.tile, s.scene.sun, s.scene.sky);
     s.statistics.passes.clear();
     if (s.photons) {

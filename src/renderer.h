@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/interrupt.h"
 #include "base/progress.h"
 #include "draw/picture_view.h"
 #include "scene/scene.h"
@@ -16,7 +17,8 @@ struct RendererOptions {
     std::string device;        ///< name (part of it) or index; empty: the best one
     bool validation = false;   ///< Vulkan validation and synchronisation validation; messages end up in `Statistics`
     Report report = noReport;  ///< told of loading, preparing and drawing; what it throws ends that work
-    bool keepRing = false;     ///< generations beyond those that the scene asks for replace the oldest
+    Check check = stopIfInterrupted;  ///< asked between the steps of tracing and drawing; what it throws ends that work
+    bool keepRing = false;            ///< generations beyond those that the scene asks for replace the oldest
 };
 
 struct PassTime {
@@ -69,14 +71,19 @@ class Renderer {
     LayeredImage draw(const View& view);
     /// The view of the scene.
     View sceneView() const;
+    /// Rays along each side of a pixel of the view.
+    int raysAcross(const View& view) const;
+    /// Where the cloud is, before any offset.
+    const Bounds& bounds() const;
 
     /// What the ring holds. Changes of light and medium age in with the generations traced from then on; what is drawn
     /// without photons (the sun's first turn, transmittance) changes at once. They need `keepRing`.
     Generations generations() const;
+    /// Both tell whether anything changed.
     /// Errors: InputError where the scene was made without a sun.
-    void setSun(const glm::dvec3& directionTo, const glm::dvec3& irradiance);
+    bool setSun(const glm::dvec3& directionTo, const glm::dvec3& irradiance);
     /// `extinction` as in the scene [1/m]. Errors: InputError where it is 0, or where nothing is there to be extinct.
-    void setExtinction(double extinction);
+    bool setExtinction(double extinction);
     /// Moves the cloud from where the scene has it [m]; light from infinity does not see it.
     void setOffset(const glm::dvec3& offset);
 

@@ -23,33 +23,33 @@ void Renderer::State::lightChanged() {
     sinceChange = 0;
 }
 
-void Renderer::setSun(const glm::dvec3& directionTo, const glm::dvec3& irradiance) {
+bool Renderer::setSun(const glm::dvec3& directionTo, const glm::dvec3& irradiance) {
     State& s = *state_;
-    if (directionTo == s.scene.sun.directionTo && irradiance == s.scene.sun.irradiance) return;
+    if (directionTo == s.scene.sun.directionTo && irradiance == s.scene.sun.irradiance) return false;
     if (!s.hasSun() && !s.sunDepth)
         throw InputError("the scene was made without a sun", "sun.irradiance", "load a scene with one");
     s.scene.sun.directionTo = directionTo;
     s.scene.sun.irradiance = irradiance;
     s.lightChanged();
+    return true;
 }
 
-void Renderer::setExtinction(double extinction) {
+bool Renderer::setExtinction(double extinction) {
     State& s = *state_;
     if (!s.cloud || !(extinction > 0.0))
         throw InputError("an extinction of 0 cannot be changed or reached", "extinction", "load another scene");
     double& now = s.scene.clouds[0].extinction;
-    if (extinction == now) return;
+    if (extinction == now) return false;
     s.medium.extinction *= extinction / now;
     now = extinction;
     if (s.photons) s.photons->setExtinction(s.medium.extinction);
     s.lightChanged();
+    return true;
 }
 
 void Renderer::setOffset(const glm::dvec3& offset) {
     State& s = *state_;
     if (offset == s.offset) return;
-    s.bounds.centre += offset - s.offset;
-    for (glm::dvec3& point : s.bounds.outline) point += offset - s.offset;
     if (s.cloud) s.cloud->toWorld.translation += offset - s.offset;
     s.offset = offset;
 }

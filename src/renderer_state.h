@@ -26,18 +26,21 @@ struct Renderer::State {
     State(const scene::Scene& theScene, const RendererOptions& options)
         : scene(theScene),
           report(options.report),
+          check(options.check),
           context({options.device, options.validation}),
           commands(context),
           keepRing(options.keepRing) {}
 
     scene::Scene scene;
     Report report;
+    Check check;
     gpu::Context context;
     gpu::Commands commands;
     bool keepRing;
     Bounds bounds;
     Camera camera;  // of the picture that is drawn, as is its part
     Tile tile;
+    int raysAcross = 1;
     glm::dvec3 offset{0.0};
 
     // What follows exists only where the scene needs it.

@@ -31,6 +31,7 @@ struct View {
                                             ///< instead of target and up
     std::optional<Frustum> frustum;         ///< instead of the angle; perspective only
     std::optional<Tile> tile;               ///< drawn alone, bit for bit as in the whole
+    int mostRays = 4;                       ///< along each side of a pixel, where pixels are larger than voxels
 
     bool operator==(const View&) const = default;
 };

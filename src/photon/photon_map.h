@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/interrupt.h"
 #include "cloud/cloud.h"
 #include "gpu/commands.h"
 #include "phase/scattering_tables.h"
@@ -31,6 +32,7 @@ struct Options {
     /// the bulk of the memory.
     bool keepRing = false;
     std::uint64_t memoryBudget = std::uint64_t{1} << 30U;  ///< bytes for all coefficients
+    Check check = stopIfInterrupted;  ///< asked between the rounds of a generation; a map in which it threw is of no more use
 };
 
 /// Sums over all generations traced.
