@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What the frame service adds to a frame: bytes on the wire, and milliseconds from the last pass to the client, at
-1280×720 raw half, against a plain copy of the frame in memory. LUMULUS is the program: service_overhead.py [--frames N]
+1280×720 raw half, against a plain copy of the frame in memory. service_overhead.py [--frames N]
 """
 
 import argparse
@@ -13,7 +13,7 @@ import numpy
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "tests", "service"))
-from server import Server
+from server import LUMULUS, Server
 
 WIDTH, HEIGHT = 1280, 720
 
@@ -26,7 +26,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--frames", type=int, default=20)
     options = parser.parse_args()
-    server = Server(os.environ["LUMULUS"])
+    server = Server(LUMULUS)
     encode, transfer, draw, copies = [], [], [], []
     try:
         with server.client() as client:

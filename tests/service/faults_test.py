@@ -8,8 +8,8 @@ import threading
 import time
 import unittest
 
+from server import LUMULUS, SCENE, Server, ServiceTest
 from lumulus_client import ServiceError
-from server import SCENE, Server, ServiceTest
 
 
 def limit_file_size():
@@ -68,7 +68,7 @@ class Faults(ServiceTest):
 
     def test_uploads(self):
         path = os.path.join(self.server.folder, "ball.vdb")
-        os.spawnlp(os.P_WAIT, os.environ["LUMULUS"], "lumulus", "cloud", "sphere", "-o", path, "--resolution", "24",
+        os.spawnlp(os.P_WAIT, LUMULUS, "lumulus", "cloud", "sphere", "-o", path, "--resolution", "24",
                    "--quiet")
         with self.server.client() as client:
             digest = client.upload(path)
@@ -108,7 +108,7 @@ class FullDisk(ServiceTest):
 
 class Restart(unittest.TestCase):
     def test_a_streaming_client_comes_back(self):
-        first = Server(os.environ["LUMULUS"])
+        first = Server(LUMULUS)
         first.owns = False
         ports = tuple(int(address.rsplit(":", 1)[1]) for address in (first.tcp, first.http))
         stop, frames, losses = threading.Event(), [], []
@@ -130,7 +130,7 @@ class Restart(unittest.TestCase):
             self.wait(lambda: len(frames) > 5)
             first.kill()
             before = len(frames)
-            second = Server(os.environ["LUMULUS"], folder=first.folder, ports=ports)
+            second = Server(LUMULUS, folder=first.folder, ports=ports)
             second.owns = True
             self.wait(lambda: len(frames) > before + 5)
             self.assertTrue(losses)

@@ -63,7 +63,8 @@ TEST(Resample, ALinearPictureStaysLinear) {
     ASSERT_EQ(large.width, 40);
     ASSERT_EQ(large.height, 20);
     for (int x = 2; x < 38; ++x)
-        EXPECT_NEAR(large.layers.at("R")[static_cast<std::size_t>(5 * 40 + x)], (x + 0.5F) / 4.0F - 0.5F, 1e-5F);
+        EXPECT_NEAR(large.layers.at("R")[static_cast<std::size_t>(5 * 40 + x)],
+                    (static_cast<float>(x) + 0.5F) / 4.0F - 0.5F, 1e-5F);
     // depths are never mixed
     for (const float depth : large.layers.at("depth.Z")) EXPECT_EQ(depth, std::round(depth));
 }
@@ -111,7 +112,7 @@ TEST(Noise, IsTheVarianceOfTheLaterMean) {
 
 TEST(Encode, HalvesRoundToNearestEvenAndDepthsAreFloats) {
     const LayeredImage image =
-        picture(3, 2, [](int x, int y) { return x == 2 ? 1e10F : 1.0F + 0x1p-11F * (x + 2 * y); });
+        picture(3, 2, [](int x, int y) { return x == 2 ? 1e10F : 1.0F + 0x1p-11F * static_cast<float>(x + 2 * y); });
     std::vector<std::byte> payload(5);
     const EncodeOptions options{{Product::color, Product::depth}, Encoding::half, 85, 0.0};
     const auto view = appendView(image, options, payload);

@@ -10,8 +10,8 @@ import tempfile
 import time
 import unittest
 
+from server import LUMULUS, SCENE, Server, ServiceTest
 from lumulus_client import HEADER, MAGIC, TYPES, Client, ServiceError
-from server import SCENE, Server, ServiceTest
 
 TOKEN = "correct horse battery staple"
 
@@ -44,7 +44,7 @@ class Hostile(ServiceTest):
         folder = tempfile.mkdtemp(prefix="lumulus-hostile-")
         with open(os.path.join(folder, "token"), "w") as file:
             file.write(TOKEN + "\n")
-        cls.server = Server(os.environ["LUMULUS"], folder=folder, **cls.options)
+        cls.server = Server(LUMULUS, folder=folder, **cls.options)
         cls.server.owns = True
 
     def client(self):
@@ -181,7 +181,10 @@ class Hostile(ServiceTest):
             connection = http.client.HTTPConnection(self.server.http, timeout=10)
             connection.request("GET", path, headers=headers)
             response = connection.getresponse()
-            return response.status, response.read().decode()
+            with response:
+                text = response.read().decode()
+            connection.close()
+            return response.status, text
 
         self.assertEqual(get("/health"), (200, "ok\n"))
         self.assertIn("<canvas", get("/")[1])
@@ -206,7 +209,7 @@ class Binding(unittest.TestCase):
             path = os.path.join(folder, "service.toml")
             with open(path, "w") as file:
                 file.write('[listen]\ntcp = "0.0.0.0:0"\n')
-            result = subprocess.run([os.environ["LUMULUS"], "serve", "--config", path], capture_output=True, text=True)
+            result = subprocess.run([LUMULUS, "serve", "--config", path], capture_output=True, text=True)
         self.assertEqual(result.returncode, 2)
         self.assertEqual(result.stderr.count("\n"), 1)
         self.assertIn("there is no token", result.stderr)

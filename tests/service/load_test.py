@@ -11,7 +11,7 @@ import sys
 import threading
 import time
 
-from server import Server
+from server import LUMULUS, Server
 
 WISHES = {"width": 320, "height": 180, "encoding": "jpeg", "budget": {"photons": 0}}
 
@@ -64,7 +64,7 @@ def main():
     parser.add_argument("--clients", type=int, default=64)
     parser.add_argument("--streams", type=int, default=16)
     options = parser.parse_args()
-    server = Server(os.environ["LUMULUS"], limits="connections = 128")
+    server = Server(LUMULUS, limits="connections = 128")
     idle = [server.client() for _ in range(options.clients - options.streams)]
     lone = Client(server, time.monotonic() + 3.0, ask)
     lone.run()

@@ -10,7 +10,7 @@ from selenium.webdriver import ActionChains
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 
-from server import Server
+from server import LUMULUS, Server
 
 
 def browser(profile, width, height):
@@ -25,7 +25,7 @@ def browser(profile, width, height):
 
 class Page(unittest.TestCase):
     def setUp(self):
-        self.server = Server(os.environ["LUMULUS"])
+        self.server = Server(LUMULUS)
         self.profile = tempfile.TemporaryDirectory()
         self.driver = browser(self.profile.name, 900, 600)
         self.addCleanup(self.profile.cleanup)
@@ -91,7 +91,7 @@ class Page(unittest.TestCase):
         self.server.kill()
         self.wait(lambda: self.driver.find_element(By.ID, "status").text == "reconnecting")
         before = self.frames()
-        self.server = Server(os.environ["LUMULUS"], folder=self.server.folder, ports=ports)
+        self.server = Server(LUMULUS, folder=self.server.folder, ports=ports)
         self.server.owns = True
         self.wait(lambda: self.frames() > before)
         self.assertFalse(self.driver.find_element(By.ID, "status").is_displayed())
@@ -99,7 +99,7 @@ class Page(unittest.TestCase):
 
 class Phone(unittest.TestCase):
     def test_fits_a_small_screen(self):
-        server = Server(os.environ["LUMULUS"])
+        server = Server(LUMULUS)
         self.addCleanup(server.stop)
         with tempfile.TemporaryDirectory() as profile:
             driver = browser(profile, 390, 844)

@@ -14,6 +14,10 @@ import unittest
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "service", "client", "python"))
 from lumulus_client import Client
 
+# The program; the variable is for other builds.
+LUMULUS = os.environ.get("LUMULUS", os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "build",
+                                                 "release", "lumulus"))
+
 SCENE = """
 [image]
 width = 64
@@ -117,6 +121,7 @@ default = "small.toml"
             raise AssertionError("the server does not end")
         finally:
             self.reader.join(5)
+            self.process.stderr.close()
             if self.owns:
                 shutil.rmtree(self.folder, ignore_errors=True)
         return code
@@ -130,7 +135,7 @@ class ServiceTest(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.server = Server(os.environ["LUMULUS"], **cls.options)
+        cls.server = Server(LUMULUS, **cls.options)
 
     @classmethod
     def tearDownClass(cls):

@@ -8,8 +8,8 @@ import time
 import unittest
 import urllib.request
 
-from lumulus_client import Client
 from server import Server, ServiceTest
+from lumulus_client import Client
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
