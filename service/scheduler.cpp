@@ -77,7 +77,9 @@ bool Scheduler::stopStream(ClientId id, std::uint64_t stream) {
 }
 
 bool Scheduler::cancel(ClientId id, std::uint64_t request) {
-    Client& client = clients_.at(id);
+    const auto it = clients_.find(id);
+    if (it == clients_.end()) return false;
+    Client& client = it->second;
     if (std::erase_if(client.queue, [&](const Job& job) { return !job.stream && job.id == request; }) > 0) return true;
     if (client.current && !client.current->stream && client.current->id == request)
         client.current->cancelled->store(true);

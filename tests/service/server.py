@@ -39,7 +39,7 @@ bands = 3
 class Server:
     """A running server: `folder` (with scenes/ and uploads/), `tcp`, `http`, `log` (its events)."""
 
-    def __init__(self, lumulus, scene=SCENE, limits="", security="", listen="", folder=None, ports=(0, 0), env=None,
+    def __init__(self, lumulus=LUMULUS, scene=SCENE, limits="", security="", listen="", folder=None, ports=(0, 0), env=None,
                  preexec=None):
         self.folder = folder or tempfile.mkdtemp(prefix="lumulus-service-")
         self.owns = folder is None
@@ -109,6 +109,8 @@ default = "small.toml"
     def kill(self):
         self.process.kill()
         self.process.wait()
+        self.reader.join(5)
+        self.process.stderr.close()
 
     def stop(self, seconds=30):
         """Ends it as systemd would, and returns its exit code."""

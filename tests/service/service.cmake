@@ -20,5 +20,6 @@ foreach(class Page Phone)
   service_test(page.${class} page_test.py ${class})
 endforeach()
 service_test(tls tls_test.py)
+service_test(client client_test.py ${CMAKE_BINARY_DIR} $<$<BOOL:${LUMULUS_SANITIZE}>:-fsanitize=address,undefined>)
 # 60 s: /usr/bin/python3 tests/service/load_test.py --seconds 60
 service_test(load load_test.py --seconds 15)
