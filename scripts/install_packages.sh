@@ -7,11 +7,13 @@ packages=(
     # tools
     g++ cmake ninja-build ccache glslang-tools pkg-config python3 python3-numpy
     # clouds and pictures
-    libopenvdb-dev libboost-iostreams-dev libtbb-dev libopenexr-dev libpng-dev
+    libopenvdb-dev libboost-iostreams-dev libtbb-dev libopenexr-dev libpng-dev libjpeg62-turbo-dev
     # plots
     libcairo2-dev fonts-dejavu-core
     # Vulkan: headers, loader, a driver that runs on the CPU, validation
     libvulkan-dev libvulkan-volk-dev libspirv-cross-c-shared-dev mesa-vulkan-drivers vulkan-validationlayers
+    # the frame service and its tests: a browser, a proxy
+    libboost-dev libssl-dev chromium chromium-driver python3-selenium python3-numpy nginx-light libnginx-mod-stream openssl
     # the rest
     libcli11-dev libfmt-dev libglm-dev libtomlplusplus-dev nlohmann-json3-dev libgmock-dev libgtest-dev
 )

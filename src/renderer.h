@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/interrupt.h"
 #include "base/progress.h"
+#include "draw/picture_view.h"
 #include "scene/scene.h"
 
 namespace lumulus {
@@ -14,8 +16,11 @@ namespace lumulus {
 struct RendererOptions {
     std::string device;        ///< name (part of it) or index; empty: the best one
     bool validation = false;   ///< Vulkan validation and synchronisation validation; messages end up in `Statistics`
-    Report report = noReport;  ///< told of loading, preparing and drawing
+    Report report = noReport;  ///< told of loading, preparing and drawing; what it throws ends that work
+    Check check = stopIfInterrupted;  ///< asked between the steps of tracing and drawing; what it throws ends that work
+    bool keepRing = false;            ///< generations beyond those that the scene asks for replace the oldest
     /// The photons are not counted beforehand: generations may go on beyond the scene's, and preview() can be asked.
+    /// Not with a ring.
     bool progressive = false;
 };
 
@@ -50,6 +55,17 @@ struct Preview {
     double forecastSeconds = 0.0;                 ///< that draw() would take now
 };
 
+/// The photon generations that the next picture shows: `render` repeats it with these as `photon_map.first_generation`,
+/// `photon_map.generations` and (as the product of the two last) `photon_map.photons`.
+struct Generations {
+    std::uint64_t first = 0;
+    int count = 0;
+    int current = 0;  ///< of them, traced under the light and extinction of now
+    std::uint64_t photonsEach = 0;
+
+    std::uint64_t photons() const { return photonsEach * static_cast<std::uint64_t>(count); }
+};
+
 /// Owns the device, the cloud and the photon map, and makes frames.
 /// Errors: InputError for bad scenes, Error for what fails while running and where interrupted.
 class Renderer {
@@ -65,6 +81,25 @@ class Renderer {
     LayeredImage draw();
     /// For progressive rendering, from two generations on after the last draw().
     Preview preview();
+    /// The same for any view: all views share the photons.
+    LayeredImage draw(const View& view);
+    /// The view of the scene.
+    View sceneView() const;
+    /// Rays along each side of a pixel of the view.
+    int raysAcross(const View& view) const;
+    /// Where the cloud is, before any offset.
+    const Bounds& bounds() const;
+
+    /// What the ring holds. Changes of light and medium age in with the generations traced from then on; what is drawn
+    /// without photons (the sun's first turn, transmittance) changes at once. They need `keepRing`.
+    Generations generations() const;
+    /// Both tell whether anything changed.
+    /// Errors: InputError where the scene was made without a sun.
+    bool setSun(const glm::dvec3& directionTo, const glm::dvec3& irradiance);
+    /// `extinction` as in the scene [1/m]. Errors: InputError where it is 0, or where nothing is there to be extinct.
+    bool setExtinction(double extinction);
+    /// Moves the cloud from where the scene has it [m]; light from infinity does not see it.
+    void setOffset(const glm::dvec3& offset);
 
     Statistics statistics() const;
 

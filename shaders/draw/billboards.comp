@@ -43,8 +43,8 @@ void addBillboard(inout RayLight ray, SunView sun, Billboard billboard, vec3 ori
 
 void main() {
     params = storedParams;
-    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, params.firstRow);
-    if (pixel.x >= params.view.size.x || pixel.y >= params.firstRow + params.rows) return;
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(params.firstColumn, params.firstRow);
+    if (pixel.x >= params.firstColumn + params.columns || pixel.y >= params.firstRow + params.rows) return;
     const uint tile = uint((pixel.y / TILE_EDGE) * params.tilesAcross + pixel.x / TILE_EDGE);
     const uint last = tileOffsets[tile + 1u];
     const float opaque = opaqueDepth();
@@ -59,6 +59,6 @@ void main() {
             addBillboard(ray, sun, billboards[tileLists[i]], origin, direction);
         addRay(sum, ray, direction);
     }
-    pixels[(pixel.y - params.firstRow) * params.view.size.x + pixel.x] =
+    pixels[(pixel.y - params.firstRow) * params.columns + pixel.x - params.firstColumn] =
         finishedPixel(sum, params.samples * params.samples);
 }

@@ -91,8 +91,8 @@ RayLight march(vec3 origin, vec3 direction, float offset) {
 
 void main() {
     params = storedParams;
-    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, params.firstRow);
-    if (pixel.x >= params.view.size.x || pixel.y >= params.firstRow + params.rows) return;
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(params.firstColumn, params.firstRow);
+    if (pixel.x >= params.firstColumn + params.columns || pixel.y >= params.firstRow + params.rows) return;
     PixelSum sum = emptyPixel();
     for (int i = 0; i < params.samples * params.samples; ++i) {
         const ivec2 fine = pixel * params.samples + ivec2(i % params.samples, i / params.samples);
@@ -102,6 +102,6 @@ void main() {
         const float offset = fract(52.9829189 * fract(dot(vec2(fine) + 0.5, vec2(0.06711056, 0.00583715))));
         addRay(sum, march(origin, direction, offset), direction);
     }
-    pixels[(pixel.y - params.firstRow) * params.view.size.x + pixel.x] =
+    pixels[(pixel.y - params.firstRow) * params.columns + pixel.x - params.firstColumn] =
         finishedPixel(sum, params.samples * params.samples);
 }

@@ -18,7 +18,7 @@ const float FAR_DEPTH = 1.0e10F;
 struct ViewParams {
     vec3 right;
     vec3 up;
-    vec3 forward;
+    vec3 forward;     // to the middle of the picture; longer than 1 where the frustum is off axis
     vec2 halfExtent;  // tangents of the half angles (perspective) or half sizes in metres (orthographic)
     ivec2 size;       // of the whole picture, pixels
     int projection;
@@ -55,7 +55,9 @@ struct DrawParams {
     ViewParams view;
     LightParams light;
     FieldParams field;
-    int firstRow;  // of the band that this dispatch draws
+    int firstColumn;  // of the band that this dispatch draws
+    int columns;
+    int firstRow;
     int rows;
     int tilesAcross;
     int samples;  // rays a pixel, along each side: a grid of them where pixels are larger than voxels
@@ -115,7 +117,7 @@ struct LightFieldPush {
 static_assert(sizeof(ViewParams) == 56 && offsetof(ViewParams, projection) == 52);
 static_assert(sizeof(LightParams) == 88 && offsetof(LightParams, tauMaximum) == 84);
 static_assert(sizeof(FieldParams) == 152 && offsetof(FieldParams, sunOffset) == 140);
-static_assert(sizeof(DrawParams) == 312 && offsetof(DrawParams, samples) == 308);
+static_assert(sizeof(DrawParams) == 320 && offsetof(DrawParams, samples) == 316);
 static_assert(sizeof(Billboard) == 24 && offsetof(Billboard, sunDepth) == 20);
 static_assert(sizeof(Pixel) == 48 && offsetof(Pixel, front) == 44);
 static_assert(sizeof(SunDepthPush) == 76 && offsetof(SunDepthPush, step) == 72);

@@ -35,15 +35,14 @@ Imf::Slice sliceAt(const float* values, int x0, int y0, int width) {
                             sizeof(float) * static_cast<std::size_t>(width));
 }
 
-Imf::Header headerOf(const LayeredImage& image, const fs::path& path) {
+Imf::Header headerOf(const LayeredImage& image, const std::string& name) {
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
-    for (const auto& [name, text] : image.attributes) {
-        if (header.find(name.c_str()) != header.end() || std::ranges::count(multipartAttributes, name) > 0) {
-            throw InputError("the attribute \"" + name + "\" belongs to the format", path.string(),
-                             "name it otherwise");
+    for (const auto& [attribute, text] : image.attributes) {
+        if (header.find(attribute.c_str()) != header.end() || std::ranges::count(multipartAttributes, attribute) > 0) {
+            throw InputError("the attribute \"" + attribute + "\" belongs to the format", name, "name it otherwise");
         }
-        header.insert(name, Imf::StringAttribute(text));
+        header.insert(attribute, Imf::StringAttribute(text));
     }
     for (const auto& layer : image.layers) header.channels().insert(layer.first, Imf::Channel(Imf::FLOAT));
     return header;
@@ -82,22 +81,27 @@ LayeredImage readOpen(Imf::InputFile& file, const fs::path& path) {
 
 }  // namespace
 
-void writeExr(const fs::path& path, const LayeredImage& image) {
+std::vector<std::byte> encodeExr(const LayeredImage& image, const std::string& name) {
     assert(image.width > 0 && image.height > 0 && !image.layers.empty());
     Imf::FrameBuffer frame;
-    for (const auto& [name, values] : image.layers) {
+    for (const auto& [layer, values] : image.layers) {
         assert(values.size() == image.pixels());
-        frame.insert(name, sliceAt(values.data(), 0, 0, image.width));
+        frame.insert(layer, sliceAt(values.data(), 0, 0, image.width));
     }
     // encoded in memory: OpenEXR loses a small picture on a full disk silently
     Imf::StdOSStream stream;
     {
-        Imf::OutputFile file(stream, headerOf(image, path));
+        Imf::OutputFile file(stream, headerOf(image, name));
         file.setFrameBuffer(frame);
         file.writePixels(image.height);
     }
-    const std::string bytes = stream.str();
-    writeFile(path, std::as_bytes(std::span(bytes)));
+    const std::string text = stream.str();
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+}
+
+void writeExr(const fs::path& path, const LayeredImage& image) {
+    writeFile(path, encodeExr(image, path.string()));
 }
 
 LayeredImage readExr(const fs::path& path) {

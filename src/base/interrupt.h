@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 namespace lumulus {
 
 /// Makes Ctrl-C (SIGINT) and SIGTERM set a flag that long work asks for between its steps. The second signal of the
@@ -12,5 +14,8 @@ bool interrupted();
 
 /// For the steps of long work, on any thread. Throws Error after the first SIGINT or SIGTERM.
 void stopIfInterrupted();
+
+/// What long work asks between its steps: throws where the work is to end.
+using Check = std::function<void()>;
 
 }  // namespace lumulus

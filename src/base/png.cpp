@@ -4,14 +4,13 @@
 
 #include <cassert>
 #include <cstddef>
-#include <vector>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
 
 namespace lumulus {
 
-void writePng(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgb) {
+std::vector<std::byte> encodePng(int width, int height, std::span<const std::uint8_t> rgb) {
     assert(width > 0 && height > 0);
     assert(rgb.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
     png_image image{};
@@ -22,9 +21,14 @@ void writePng(const std::filesystem::path& path, int width, int height, std::spa
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
     std::vector<std::byte> bytes(size);
     if (png_image_write_to_memory(&image, bytes.data(), &size, 0, rgb.data(), 0, nullptr) == 0) {
-        throw Error(std::string("cannot encode the picture: ") + image.message, path.string(), "");
+        throw Error(std::string("cannot encode the picture: ") + image.message, "", "");
     }
-    writeFile(path, std::span(bytes).first(size));
+    bytes.resize(size);
+    return bytes;
+}
+
+void writePng(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgb) {
+    writeFile(path, encodePng(width, height, rgb));
 }
 
 }  // namespace lumulus

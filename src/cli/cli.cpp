@@ -12,10 +12,12 @@
 #include "cli/cloud.h"
 #include "cli/compare.h"
 #include "cli/composite.h"
+#include "cli/fetch.h"
 #include "cli/info.h"
 #include "cli/output.h"
 #include "cli/reference.h"
 #include "cli/render.h"
+#include "cli/serve.h"
 #include "cli/slab.h"
 
 namespace lumulus::cli {
@@ -190,6 +192,44 @@ void addBench(CLI::App& app, BenchOptions& options, Action& action) {
     command->callback([&options, &action] { action = [&options] { runBench(options); }; });
 }
 
+void addServe(CLI::App& app, ServeOptions& options, Action& action) {
+    CLI::App* command = app.add_subcommand("serve", "Serve frames to simulators, scripts and browsers");
+    command->add_option("--config", options.config, "Configuration (TOML), see docs/service.md")->required();
+    command->footer("Example:\n  lumulus serve --config configs/service.toml");
+    command->callback([&options, &action] { action = [&options] { runServe(options); }; });
+}
+
+void addFetch(CLI::App& app, FetchOptions& options, Action& action) {
+    CLI::App* command = app.add_subcommand("fetch", "Get one frame of a running service as a picture");
+    command->add_option("-o,--output", options.output, "Picture: .exr (all layers), .png or .jpg")->required();
+    command->add_option("--address", options.address, "HOST:PORT or unix:PATH")->capture_default_str();
+    command->add_option("--token-file", options.tokenFile, "File with the server's token");
+    command->add_option("--scene", options.scene, "Name of a scene on the server, or a scene file here (.toml)");
+    command->add_option("--vdb", options.vdb, "OpenVDB file to send, in the place of the scene's cloud");
+    command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
+        ->allow_extra_args(false);
+    command->add_option("--quality", options.quality, "As for render")
+        ->check(CLI::IsMember({"draft", "interactive", "final"}));
+    command->add_option("--width", options.width, "Pixels");
+    command->add_option("--height", options.height, "Pixels");
+    command->add_option("--position", options.position, "Of the camera: X Y Z, metres")->expected(3);
+    command->add_option("--target", options.target, "The point looked at: X Y Z, metres")->expected(3);
+    command->add_option("--fov", options.verticalFov, "Vertical, degrees");
+    command->add_option("--sun", options.sun, "AZIMUTH ELEVATION, degrees")->expected(2);
+    CLI::Option* deadline = command->add_option("--milliseconds", options.milliseconds, "Deadline, kept by doing less");
+    command->add_option("--photons", options.photons, "Draw once this many are there (default: all of the scene)")
+        ->excludes(deadline);
+    command->add_option("--exposure", options.exposure, "Stops, for .png and .jpg");
+    command
+        ->add_option("--stats", options.stats, "Write the server's reply as JSON to this file, - for standard output")
+        ->check(notEmpty());
+    command->add_option("--timeout", options.timeout, "Seconds that anything may take")
+        ->check(CLI::Range(0.1, 1e6))
+        ->capture_default_str();
+    command->footer("Example:\n  lumulus fetch -o cloud.png --width 640 --height 360 --sun 120 20");
+    command->callback([&options, &action] { action = [&options] { runFetch(options); }; });
+}
+
 /// `lumulus nonsense --help` has no help to give; CLI11 would give the general one.
 void refuseUnknownCommand(const CLI::App& app) {
     const std::vector<std::string> unknown = app.remaining();
@@ -212,6 +252,8 @@ void parseAndRun(int argc, const char* const* argv) {
     CompositeOptions composite;
     BenchOptions bench;
     SlabOptions slab;
+    ServeOptions serve;
+    FetchOptions fetch;
     addRender(app, render, action);
     addCloud(app, cloud, action);
     addInfo(app, info, action);
@@ -220,6 +262,8 @@ void parseAndRun(int argc, const char* const* argv) {
     addComposite(app, composite, action);
     addBench(app, bench, action);
     addSlab(app, slab, action);
+    addServe(app, serve, action);
+    addFetch(app, fetch, action);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success&) {

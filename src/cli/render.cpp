@@ -118,7 +118,9 @@ void runRender(const RenderOptions& options) {
     const scene::Scene scene = sceneOf(options);
 
     Steps steps(options.quiet);
-    Renderer renderer(scene, {options.device, options.validate, steps.reporter(), progressive(options)});
+    RendererOptions how{options.device, options.validate, steps.reporter()};
+    how.progressive = progressive(options);
+    Renderer renderer(scene, how);
     std::optional<ProgressiveStatistics> reached;
     if (progressive(options))
         reached = traceProgressively(renderer, options, scene, start, steps);

@@ -6,27 +6,27 @@
 
 namespace lumulus::draw {
 
-int bandRows(const Camera& camera) {
+int bandRows(const Tile& tile) {
     constexpr int bands = 32;
-    const int tiles = (camera.height + bands * shared::TILE_EDGE - 1) / (bands * shared::TILE_EDGE);
-    const int most = (1 << 18) / (camera.width * shared::TILE_EDGE);
+    const int tiles = (tile.height + bands * shared::TILE_EDGE - 1) / (bands * shared::TILE_EDGE);
+    const int most = (1 << 18) / (tile.width * shared::TILE_EDGE);
     return std::max(1, std::min(tiles, most)) * shared::TILE_EDGE;
 }
 
-std::vector<Band> allBands(const Camera& camera) {
-    const int each = bandRows(camera);
+std::vector<Band> allBands(const Tile& tile) {
+    const int each = bandRows(tile);
     std::vector<Band> bands;
-    for (int row = 0; row < camera.height; row += each) bands.push_back({row, std::min(each, camera.height - row)});
+    for (int row = 0; row < tile.height; row += each) bands.push_back({row, std::min(each, tile.height - row)});
     return bands;
 }
 
-std::vector<Band> sampleBands(const Camera& camera) {
+std::vector<Band> sampleBands(const Tile& tile) {
     constexpr int pixels = 40000;
-    const int tiles = (camera.height + shared::TILE_EDGE - 1) / shared::TILE_EDGE;
-    const int rows = std::clamp(pixels / (tiles * camera.width), 1, shared::TILE_EDGE);
+    const int tiles = (tile.height + shared::TILE_EDGE - 1) / shared::TILE_EDGE;
+    const int rows = std::clamp(pixels / (tiles * tile.width), 1, shared::TILE_EDGE);
     std::vector<Band> bands;
-    for (int row = 0; row < camera.height; row += shared::TILE_EDGE)
-        bands.push_back({row, std::min(rows, camera.height - row)});
+    for (int row = 0; row < tile.height; row += shared::TILE_EDGE)
+        bands.push_back({row, std::min(rows, tile.height - row)});
     return bands;
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "draw/camera.h"
+#include "draw/picture_view.h"
 
 namespace lumulus::draw {
 
@@ -13,12 +13,12 @@ struct Band {
 
 /// Rows of the largest band, whole tiles: few enough that progress and Ctrl-C do not wait long, and 2^18 pixels at
 /// most.
-int bandRows(const Camera& camera);
+int bandRows(const Tile& tile);
 
 /// All rows, from the top.
-std::vector<Band> allBands(const Camera& camera);
+std::vector<Band> allBands(const Tile& tile);
 
 /// The first rows of every tile, as many of each as make about 40,000 pixels in all, at least one.
-std::vector<Band> sampleBands(const Camera& camera);
+std::vector<Band> sampleBands(const Tile& tile);
 
 }  // namespace lumulus::draw

@@ -25,7 +25,7 @@ class Billboards {
     /// Sorts and bins for this view, and uploads. Before any commands of the frame are recorded.
     void prepare(const Camera& camera, double extinction, std::span<const float> sunDepths);
 
-    /// Records one band of rows; values.firstRow is a multiple of TILE_EDGE.
+    /// Records one band of rows; the fastest where it begins at multiples of TILE_EDGE.
     void record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawParams& values) const;
 
     int tilesAcross() const { return tiles_.across; }

@@ -70,7 +70,8 @@ Ray Camera::ray(double px, double py) const {
         const double half = 0.5 * orthographicHeight;
         return {position + axes * glm::dvec3(x * half * aspect, y * half, 0.0), axes[2]};
     }
-    return {position, glm::normalize(axes * glm::dvec3(x * tanHalfFov * aspect, y * tanHalfFov, 1.0))};
+    const glm::dvec2 half(tanHalfFov * aspect * stretch, tanHalfFov);
+    return {position, glm::normalize(axes * glm::dvec3(middle + glm::dvec2(x, y) * half, 1.0))};
 }
 
 Camera makeCamera(const scene::Camera& camera, const scene::Image& image, const Bounds& cloud) {

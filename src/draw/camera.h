@@ -18,6 +18,8 @@ struct Camera {
     glm::dvec3 position{0.0};
     glm::dmat3 axes{1.0};     ///< columns: right, up, forward; orthonormal (forward = up × right)
     double tanHalfFov = 1.0;  ///< of the picture's height (perspective)
+    double stretch = 1.0;     ///< width of a pixel over its height (perspective)
+    glm::dvec2 middle{0.0};  ///< tangents of the picture's middle: not zero where the frustum is off axis (perspective)
     scene::Projection projection = scene::Projection::perspective;
     double orthographicHeight = 1.0;  ///< metres from the lower to the upper edge
     int width = 1;                    ///< pixels

@@ -56,10 +56,10 @@ struct FrameInputs {
     }
 };
 
-/// Workgroups of a drawing pass over a band of rows.
+/// Workgroups of a drawing pass over a band of rows, or the part of it that a tile takes.
 inline glm::uvec3 bandGroups(const shared::DrawParams& values) {
-    return {(static_cast<std::uint32_t>(values.view.size.x) + 15) / 16,
-            (static_cast<std::uint32_t>(values.rows) + 3) / 4, 1};
+    return {(static_cast<std::uint32_t>(values.columns) + 15) / 16, (static_cast<std::uint32_t>(values.rows) + 3) / 4,
+            1};
 }
 
 }  // namespace lumulus::draw

@@ -7,10 +7,10 @@
 
 namespace lumulus::draw {
 
-LayeredImage skyImage(const Camera& camera, const scene::Sun& sun, const scene::Sky& sky) {
+LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& sun, const scene::Sky& sky) {
     LayeredImage image;
-    image.width = camera.width;
-    image.height = camera.height;
+    image.width = tile.width;
+    image.height = tile.height;
     auto& red = image.layer("R");
     auto& green = image.layer("G");
     auto& blue = image.layer("B");
@@ -20,15 +20,15 @@ LayeredImage skyImage(const Camera& camera, const scene::Sun& sun, const scene::
 
     const double radius = 0.5 * sun.angularDiameter * std::numbers::pi / 180.0;
     const double disc = std::numbers::pi * std::pow(std::sin(radius), 2);
-    tbb::parallel_for(0, camera.height, [&](int y) {
-        for (int x = 0; x < camera.width; ++x) {
+    tbb::parallel_for(0, tile.height, [&](int y) {
+        for (int x = 0; x < tile.width; ++x) {
             glm::dvec3 radiance = sky.radiance;
-            const glm::dvec3 direction = camera.ray(x + 0.5, y + 0.5).direction;
+            const glm::dvec3 direction = camera.ray(tile.x + x + 0.5, tile.y + y + 0.5).direction;
             const double angle =
                 2.0 * std::atan2(glm::length(direction - sun.directionTo), glm::length(direction + sun.directionTo));
             if (disc > 0.0 && angle <= radius) radiance += sun.irradiance / disc;
             const std::size_t i =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(x);
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(x);
             red[i] = static_cast<float>(radiance.x);
             green[i] = static_cast<float>(radiance.y);
             blue[i] = static_cast<float>(radiance.z);

@@ -4,15 +4,16 @@
 
 #include "base/image.h"
 #include "draw/camera.h"
+#include "draw/picture_view.h"
 #include "scene/scene.h"
 #include "shared/draw.h"
 
 namespace lumulus::draw {
 
-/// The picture without a cloud: sky, the sun's disc, and the layers that every picture has.
-LayeredImage skyImage(const Camera& camera, const scene::Sun& sun, const scene::Sky& sky);
+/// The part `tile` of the picture without a cloud: sky, the sun's disc, and the layers that every picture has.
+LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& sun, const scene::Sky& sky);
 
-/// Spreads a band of pixels, rows from `firstRow`, over the layers of the picture.
+/// Spreads a band of pixels, rows from `firstRow` of the image, over its layers.
 void copyPixels(std::span<const shared::Pixel> pixels, LayeredImage& image, int firstRow, int rows);
 
 }  // namespace lumulus::draw

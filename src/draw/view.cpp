@@ -39,10 +39,10 @@ shared::ViewParams viewParams(const Camera& camera) {
     shared::ViewParams view{};
     view.right = glm::vec3(camera.axes[0]);
     view.up = glm::vec3(camera.axes[1]);
-    view.forward = glm::vec3(camera.axes[2]);
+    view.forward = glm::vec3(camera.axes * glm::dvec3(camera.middle, 1.0));
     const double half =
         camera.projection == scene::Projection::orthographic ? 0.5 * camera.orthographicHeight : camera.tanHalfFov;
-    view.halfExtent = glm::vec2(half * camera.width / camera.height, half);
+    view.halfExtent = glm::vec2(half * camera.width / camera.height * camera.stretch, half);
     view.size = glm::ivec2(camera.width, camera.height);
     view.projection = projectionOf(camera.projection);
     return view;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/interrupt.h"
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
 #include "photon/map_limits.h"
@@ -186,7 +185,7 @@ void GenerationTracer::trace(const Emission& emission, const scene::Sun& sun, in
     resetStates(states_.mapped<shared::TraceState>().subspan(0, invocations_));
     const shared::TraceCounters& c = counters_.mapped<shared::TraceCounters>()[0];
     do {
-        stopIfInterrupted();
+        options_.check();
         round(coefficients);
         log.add(commands_);
         counters.events += c.events;

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <deque>
+#include <numeric>
 #include <optional>
 
 #include "gpu/groups.h"
@@ -28,8 +30,8 @@ using gpu::Memory;
 using gpu::Program;
 using gpu::SpecConstant;
 
-/// The ring counts in 2⁻⁴² of the first generation's flux: 2⁻²⁵ of a photon's power at 1e5 photons, and 2¹⁹ times the
-/// flux before saturation.
+/// The ring counts in 2⁻⁴² of the greatest flux that the first generation's lights may have: 2⁻²⁵ of a photon's power
+/// at 1e5 photons, and 2¹⁹ times the flux before saturation.
 constexpr int unitBits = 42;
 /// Records that generations may leave together before the sum takes them: half of what requireCountable() allows.
 constexpr std::uint64_t settleBeyond = 1ULL << 37U;
@@ -40,6 +42,13 @@ int exponentAbove(double value) {
 
 double maxChannel(const glm::dvec3& v) {
     return std::max(v.x, std::max(v.y, v.z));
+}
+
+/// Through the cloud's box, wherever the sun stands: so the ring's unit does not depend on it, and pictures under a sun
+/// that came there have the bits of those where it always was.
+double greatestFlux(const scene::Sun& sun, const Emission& emission, const glm::dmat3& faceArea) {
+    const double area = glm::length(faceArea[0]) + glm::length(faceArea[1]) + glm::length(faceArea[2]);
+    return maxChannel(sun.irradiance * area + emission.skyFlux);
 }
 
 /// Of all collectors together, where there is room for them.
@@ -80,7 +89,13 @@ struct PhotonMap::State {
     Halves halves;      // of what is unsettled
     Counters counters;
     PassLog log;
+    double massExtinction;               // under which `places` holds the masses
+    std::deque<double> ringExtinctions;  // of the generations in the ring, over massExtinction
 
+    /// From a generation's unit to the ring's.
+    int shiftOf(int unitExponent) const {
+        return unitExponent - std::countr_zero(static_cast<unsigned>(shared::COEFFICIENT_SCALE)) - baseExponent;
+    }
     void makeRoom(int unitExponent);
     void settle();
     const Buffer& target();
@@ -107,7 +122,8 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Cloud& preparedCl
       sum(context, "ring sum", coefficients * sizeof(std::int64_t), Memory::device),
       saturated(context, "saturated", sizeof(std::uint32_t), Memory::host),
       radiance(context, "collector radiance", collectors * sizeof(glm::vec4), Memory::device),
-      commands(context) {
+      commands(context),
+      massExtinction(medium.extinction) {
     if (options.keepRing)
         for (int i = 0; i < options.generations; ++i)
             slots.emplace_back(context, "ring slot " + std::to_string(i), coefficients * sizeof(std::int64_t),
@@ -116,9 +132,11 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Cloud& preparedCl
 }
 
 /// Clears the generation's buffer, where it does not hold light in the same unit that the sum can take later, with room
-/// for more. A ring has to know its generations one by one.
+/// for more. A ring has to know its generations one by one; where they are rounded into it, so does a sum that is to
+/// have the same bits.
 void PhotonMap::State::makeRoom(int unitExponent) {
-    if (unsettled == unitExponent && !options.keepRing && unsettledRecords <= settleBeyond) return;
+    const bool exact = shiftOf(unitExponent) >= 0 || options.keepHalves;
+    if (unsettled == unitExponent && exact && !options.keepRing && unsettledRecords <= settleBeyond) return;
     settle();
     commands.begin();
     commands.fill(generation, 0);
@@ -157,7 +175,7 @@ void PhotonMap::State::recordAdd(const Buffer& from, const Buffer& to, int shift
 void PhotonMap::State::settle() {
     if (!unsettled) return;
     saturated.mapped<std::uint32_t>()[0] = 0;
-    const int shift = *unsettled - std::countr_zero(static_cast<unsigned>(shared::COEFFICIENT_SCALE)) - baseExponent;
+    const int shift = shiftOf(*unsettled);
     commands.begin();
     commands.pass("accumulate");
     if (options.keepHalves) {
@@ -201,7 +219,7 @@ void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
                                      maxChannel(emission.skyPower(s.options.photonsPerGeneration)));
         unitExponent = exponentAbove(most / static_cast<double>(shared::POWER_UNITS));
         if (!s.hasUnit) {
-            s.baseExponent = exponentAbove(maxChannel(emission.sunFlux + emission.skyFlux)) - unitBits;
+            s.baseExponent = exponentAbove(greatestFlux(sun, emission, s.tracer.faceArea())) - unitBits;
             s.hasUnit = true;
         }
         s.makeRoom(unitExponent);
@@ -211,6 +229,8 @@ void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
         s.makeRoom(unitExponent);  // the oldest generation gives way to an empty one
     }
     ++s.traced;
+    s.ringExtinctions.push_back(s.medium.extinction / s.massExtinction);
+    if (s.options.keepRing && s.traced > s.options.generations) s.ringExtinctions.pop_front();
     if (s.options.keepRing) s.settle();
 }
 
@@ -218,7 +238,9 @@ Light PhotonMap::light(Part part) {
     State& s = *state_;
     if (part == Part::all) {
         s.settle();
-        return {&s.sum, unit() / std::max(1, generationsInRing())};
+        // Σ c over Σ M: equal extinctions give exactly the number of generations
+        const double masses = std::accumulate(s.ringExtinctions.begin(), s.ringExtinctions.end(), 0.0);
+        return {&s.sum, unit() / (masses > 0.0 ? masses : 1.0)};
     }
     const bool even = part == Part::even;
     return {even ? &s.generation : &s.oddGeneration, s.unsettledUnit() / (even ? s.halves.even : s.halves.odd)};
@@ -258,6 +280,15 @@ double PhotonMap::photonPower() const {
     const double photons = static_cast<double>(state_->options.photonsPerGeneration) * std::max(1, generationsInRing());
     return state_->flux / photons;
 }
+std::uint64_t PhotonMap::firstInRing() const {
+    return state_->options.firstGeneration + static_cast<std::uint64_t>(state_->traced - generationsInRing());
+}
+std::uint64_t PhotonMap::photonsInRing() const {
+    return state_->options.photonsPerGeneration * static_cast<std::uint64_t>(generationsInRing());
+}
+void PhotonMap::setExtinction(double extinction) {
+    state_->medium.extinction = extinction;
+}
 const Counters& PhotonMap::counters() const {
     return state_->counters;
 }
@@ -285,8 +316,8 @@ std::vector<std::int64_t> PhotonMap::downloadSlot(int slot) const {
 }
 
 double PhotonMap::massScale() const {
-    const Medium& medium = state_->medium;
-    return medium.extinction * (1.0 - static_cast<double>(medium.tables.forwardFraction)) * state_->cloud.voxelVolume;
+    const State& s = *state_;
+    return s.massExtinction * (1.0 - static_cast<double>(s.medium.tables.forwardFraction)) * s.cloud.voxelVolume;
 }
 
 std::vector<double> PhotonMap::masses() const {

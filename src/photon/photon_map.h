@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/interrupt.h"
 #include "cloud/cloud.h"
 #include "gpu/commands.h"
 #include "phase/scattering_tables.h"
@@ -36,6 +37,7 @@ struct Options {
     /// noisy a picture of all is. Not with a ring.
     bool keepHalves = false;
     std::uint64_t memoryBudget = std::uint64_t{1} << 30U;  ///< bytes for all coefficients
+    Check check = stopIfInterrupted;  ///< asked between the rounds of a generation; a map in which it threw is of no more use
 };
 
 /// Sums over all generations traced.
@@ -89,6 +91,12 @@ class PhotonMap {
 
     /// Without a ring: all that were traced.
     int generationsInRing() const;
+    /// Number of the oldest generation in the ring; where nothing was traced, of the next.
+    std::uint64_t firstInRing() const;
+    std::uint64_t photonsInRing() const;
+    /// σt at density 1 [1/m] for the generations from now on. Radiance is then the mean over the ring, each generation
+    /// weighted by its extinction. Needs keepRing.
+    void setExtinction(double extinction);
     const Counters& counters() const;
     /// Milliseconds of each pass, summed, in the order of the passes.
     std::vector<gpu::PassTime> times() const;

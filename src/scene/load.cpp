@@ -14,7 +14,9 @@ namespace {
 
 constexpr std::size_t maximumBytes = std::size_t{1} << 20;
 
-std::string readText(const std::filesystem::path& path) {
+}  // namespace
+
+std::string readSceneText(const std::filesystem::path& path) {
     std::error_code ec;
     if (std::filesystem::is_directory(path, ec)) {
         throw InputError("the scene is a folder", path.string(), "give a scene file");
@@ -34,15 +36,13 @@ std::string readText(const std::filesystem::path& path) {
     return text;
 }
 
-}  // namespace
-
 Scene loadScene(const std::filesystem::path& path, std::span<const std::string> overrides,
                 std::optional<Quality> quality) {
-    return parseScene(readText(path), path.string(), overrides, quality);
+    return parseScene(readSceneText(path), path.string(), overrides, quality);
 }
 
 Scene parseScene(std::string_view toml, const std::string& sourceName, std::span<const std::string> overrides,
-                 std::optional<Quality> quality) {
+                 std::optional<Quality> quality, std::span<const std::filesystem::path> folders) {
     Settings settings;
     settings.addFile(toml, sourceName);
     for (const std::string& text : overrides) settings.addOverride(text);
@@ -50,6 +50,7 @@ Scene parseScene(std::string_view toml, const std::string& sourceName, std::span
     Draft draft;
     draft.scene.source = sourceName;
     draft.folder = std::filesystem::path(sourceName).parent_path();
+    draft.allowed = folders;
     draft.scene.clouds.resize(settings.entries("cloud").value_or(1));
     draft.scene.fog.media.resize(settings.entries("fog.media").value_or(0));
     draft.scene.surfaces.resize(settings.entries("surface").value_or(0));

@@ -16,8 +16,13 @@ namespace lumulus::scene {
 Scene loadScene(const std::filesystem::path& path, std::span<const std::string> overrides = {},
                 std::optional<Quality> quality = std::nullopt);
 
-/// The same for text; `sourceName` stands for the file in messages, and relative paths start in its folder.
+/// The same for text; `sourceName` stands for the file in messages, and relative paths start in its folder. Where
+/// `folders` are given, files that do not lie in them (symbolic links followed) are refused like files that do not
+/// exist.
 Scene parseScene(std::string_view toml, const std::string& sourceName, std::span<const std::string> overrides = {},
-                 std::optional<Quality> quality = std::nullopt);
+                 std::optional<Quality> quality = std::nullopt, std::span<const std::filesystem::path> folders = {});
+
+/// The text of a scene file. Errors: InputError where it cannot be read or is larger than 1 MiB.
+std::string readSceneText(const std::filesystem::path& path);
 
 }  // namespace lumulus::scene

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,8 +40,9 @@ struct Value {
 /// A scene while its keys are read one by one.
 struct Draft {
     Scene scene;
-    std::size_t entry = 0;         ///< of the array section that the key belongs to
-    std::filesystem::path folder;  ///< of the scene file: relative paths start here
+    std::size_t entry = 0;                           ///< of the array section that the key belongs to
+    std::filesystem::path folder;                    ///< of the scene file: relative paths start here
+    std::span<const std::filesystem::path> allowed;  ///< folders in which files may lie; none: anywhere
     std::optional<glm::dvec3> directionTo;
     std::optional<double> azimuth, elevation;  ///< of the sun, degrees
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/error.h"
@@ -140,10 +141,21 @@ void checkFog(const Fog& fog, const Settings& settings) {
     }
 }
 
-void checkCloudFile(const Cloud& cloud, const Settings& settings) {
+/// Whether the file lies in one of the folders, links followed; anywhere where none are given.
+bool isAllowed(const std::filesystem::path& file, std::span<const std::filesystem::path> folders) {
+    if (folders.empty()) return true;
+    std::error_code ec;
+    const std::filesystem::path real = std::filesystem::weakly_canonical(file, ec);
+    return !ec && std::ranges::any_of(folders, [&](const std::filesystem::path& folder) {
+        const std::filesystem::path base = std::filesystem::weakly_canonical(folder, ec);
+        return !ec && std::ranges::mismatch(base, real).in1 == base.end();
+    });
+}
+
+void checkCloudFile(const Cloud& cloud, std::span<const std::filesystem::path> allowed, const Settings& settings) {
     if (cloud.vdb.empty()) return;
     std::error_code ec;
-    const bool exists = std::filesystem::exists(cloud.vdb, ec);
+    const bool exists = isAllowed(cloud.vdb, allowed) && std::filesystem::exists(cloud.vdb, ec);
     if (!exists || std::filesystem::is_directory(cloud.vdb, ec)) {
         throw InputError(fmt::format("{} {}", cloud.vdb.string(), exists ? "is a folder" : "does not exist"),
                          whereOf(settings, {"cloud.0.vdb"}),
@@ -160,7 +172,7 @@ Scene finishScene(Draft draft, const Settings& settings) {
     finishSun(draft, settings);
     for (const Cloud& cloud : draft.scene.clouds) {
         checkPhase(cloud.phase, settings);
-        checkCloudFile(cloud, settings);
+        checkCloudFile(cloud, draft.allowed, settings);
     }
     checkFog(draft.scene.fog, settings);
     for (std::size_t i = 0; i < draft.scene.fog.media.size(); ++i) finishMedium(draft.scene.fog.media[i], i, settings);

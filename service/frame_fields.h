@@ -1,0 +1,21 @@
+#pragma once
+
+#include "service/json_fields.h"
+#include "service/requests.h"
+
+namespace lumulus::service {
+
+/// The parts of requests that speak of pictures. Errors: RequestError.
+CameraRequest readCamera(JsonFields& fields);
+LightChange readLight(JsonFields& fields);
+FrameRequest readFrame(JsonFields& fields, const RequestLimits& limits);
+
+/// Encoding, quality and exposure: fields `encoding`, `quality`, `exposure`.
+struct EncodingFields {
+    Encoding encoding = Encoding::half;
+    int quality = 85;
+    std::optional<double> exposure;
+};
+EncodingFields readEncoding(JsonFields& fields);
+
+}  // namespace lumulus::service

@@ -1,0 +1,209 @@
+// The thread that draws, and refines photons while nobody asks.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "service/event_log.h"
+#include "service/json_fields.h"
+#include "service/render_service.h"
+#include "service/session.h"
+
+namespace lumulus::service {
+
+namespace {
+
+/// However busy streams keep the service, its photons get a generation this often.
+constexpr auto longestWithoutGeneration = std::chrono::seconds(1);
+
+}  // namespace
+
+void RenderService::renderLoop() {
+    while (true) {
+        std::optional<Job> job;
+        SlotPointer toRefine;
+        {
+            std::unique_lock lock(mutex_);
+            rendering_ = false;
+            idle_.notify_all();
+            if (stopping_) return;
+            applyChanges();
+            const auto now = Clock::now();
+            const auto revision = [this](ClientId client) { return revisionOf(client); };
+            const auto due = scheduler_.nextDue(revision);
+            if (!closing_) toRefine = slotToRefine(now, due ? std::max(*due, now) : due);
+            const bool starving = toRefine && now - toRefine->lastTraced() > longestWithoutGeneration;
+            if (!starving) job = scheduler_.take(now, revision);
+            if (!job && !toRefine) {
+                if (due)
+                    wake_.wait_until(lock, *due);
+                else
+                    wake_.wait(lock);
+                continue;
+            }
+            rendering_ = true;
+        }
+        if (job)
+            make(std::move(*job));
+        else
+            refine(toRefine);
+    }
+}
+
+/// A slot in use whose ring is not full, if there is time for a generation before the next picture is due.
+RenderService::SlotPointer RenderService::slotToRefine(Clock::time_point now, std::optional<Clock::time_point> due) {
+    SlotPointer best;
+    for (const SlotPointer& slot : slots_) {
+        const bool used = slot == defaultSlot_ ||
+                          std::ranges::any_of(slotOfClient_, [&](const auto& entry) { return entry.second == slot; });
+        if (used && slot->wantsGeneration() && (!best || slot->lastTraced() < best->lastTraced())) best = slot;
+    }
+    if (!best || !due || now - best->lastTraced() > longestWithoutGeneration) return best;
+    const auto cost = std::chrono::duration<double, std::milli>(best->traceMs());
+    return now + cost < *due ? best : nullptr;
+}
+
+void RenderService::refine(const SlotPointer& slot) {
+    try {
+        slot->traceGeneration();
+        metrics_.add(Metrics::generationsTraced);
+        const std::lock_guard lock(mutex_);
+        publish(*slot);
+    } catch (const std::exception& e) {
+        logEvent("error", "generation_failed", {{"scene", slot->scene().source}, {"message", e.what()}});
+        dropSlot(slot);
+    }
+}
+
+/// For the other threads, with the lock held.
+void RenderService::publish(const SceneSlot& slot) {
+    revisions_[slot.key()] = slot.revision();
+    states_[slot.key()] = slot.state().dump();
+}
+
+/// With the lock held.
+void RenderService::applyChanges() {
+    for (const auto& [slot, light] : changes_) {
+        try {
+            slot->apply(light);
+            publish(*slot);
+        } catch (const RequestError& e) {
+            logEvent("warning", "change_refused", {{"scene", slot->scene().source}, {"message", e.what()}});
+        }
+    }
+    changes_.clear();
+}
+
+std::uint64_t RenderService::revisionOf(ClientId client) const {
+    const auto it = slotOfClient_.find(client);
+    if (it == slotOfClient_.end() || !it->second) return 0;
+    const auto revision = revisions_.find(it->second->key());
+    return revision == revisions_.end() ? 0 : revision->second;
+}
+
+RenderService::SlotPointer RenderService::slotOf(ClientId client) {
+    const std::lock_guard lock(mutex_);
+    const auto it = slotOfClient_.find(client);
+    return it == slotOfClient_.end() ? nullptr : it->second;
+}
+
+void RenderService::make(Job job) {
+    const SlotPointer slot = slotOf(job.client);
+    try {
+        if (job.cancelled->load()) throw Cancelled{};
+        if (!slot) throw RequestError("no_scene", "load a scene first");
+        if (const auto* composite = std::get_if<Composite>(job.work.get()))
+            makeComposite(job, *composite, slot);
+        else
+            makeFrame(job, std::get<FrameRequest>(*job.work), slot);
+        return;
+    } catch (const RequestError& e) {
+        fail(job, e.code, e.what(), e.where);
+    } catch (const Cancelled&) {
+        if (job.stream)
+            finish(job);  // its end was answered already
+        else
+            fail(job, "cancelled", "cancelled on request");
+    } catch (const std::exception& e) {
+        fail(job, "internal", e.what());
+        logEvent("error", "frame_failed", {{"client", job.client}, {"message", e.what()}});
+        dropSlot(slot);
+    }
+}
+
+void RenderService::makeFrame(Job job, const FrameRequest& frame, const SlotPointer& slot) {
+    // once: of two lights that clients ask for in turns, neither would ever see all its generations
+    if (!job.begun) slot->apply(frame.light);
+    job.begun = true;
+    bool hurry = false;
+    {
+        const std::lock_guard lock(mutex_);
+        hurry = closing_;
+    }
+    if (!hurry && slot->needsGeneration(job, frame)) {
+        refine(slot);
+        bool kept = false;
+        {
+            const std::lock_guard lock(mutex_);
+            kept =
+                slotOfClient_.contains(job.client) && slotOfClient_.at(job.client) == slot && scheduler_.putBack(job);
+        }
+        if (!kept) fail(job, "superseded", "a newer frame of the channel takes its place, or its scene is gone");
+        return;
+    }
+    // a stream without a budget refines as it goes
+    const bool refines = job.stream && !frame.budget.milliseconds && !frame.budget.photons && slot->wantsGeneration();
+    if (refines && !hurry) refine(slot);
+    SceneSlot::Frame made = slot->draw(job, frame);
+    {
+        const std::lock_guard lock(mutex_);
+        publish(*slot);
+    }
+    handOver(job, std::move(made));
+}
+
+void RenderService::makeComposite(const Job&, const Composite&, const SlotPointer&) {
+    throw RequestError("not_available", "this build has no fog to composite with");
+}
+
+void RenderService::handOver(const Job& job, SceneSlot::Frame frame) {
+    {
+        const std::lock_guard lock(mutex_);
+        scheduler_.done(job);
+        scheduler_.frameHandedOver(job.client);
+    }
+    metrics_.add(Metrics::framesSent);
+    metrics_.add(Metrics::framesReduced, frame.reduced ? 1 : 0);
+    metrics_.add(Metrics::deadlinesMissed, frame.late ? 1 : 0);
+    metrics_.frameLatency(frame.seconds);
+    deliver_(job.client, std::move(frame.reply), true);
+}
+
+void RenderService::finish(const Job& job) {
+    const std::lock_guard lock(mutex_);
+    scheduler_.done(job);
+}
+
+void RenderService::fail(const Job& job, const std::string& code, const std::string& text, const std::string& where) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (job.stream) scheduler_.stopStream(job.client, job.id);
+        scheduler_.done(job);
+    }
+    metrics_.add(Metrics::requestsRefused);
+    deliver_(job.client, errorReply(job.id, code, text, where), false);
+}
+
+/// A renderer in which something failed is of no more use; its clients have to load again.
+void RenderService::dropSlot(const SlotPointer& slot) {
+    if (!slot) return;
+    const std::lock_guard lock(mutex_);
+    std::erase(slots_, slot);
+    states_.erase(slot->key());
+    revisions_.erase(slot->key());
+    for (auto& [client, used] : slotOfClient_)
+        if (used == slot) used = nullptr;
+    if (defaultSlot_ == slot) defaultSlot_ = nullptr;
+    metrics_.set(Metrics::scenesHeld, static_cast<std::int64_t>(slots_.size()));
+}
+
+}  // namespace lumulus::service

@@ -1,0 +1,100 @@
+#include "service/server.h"
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "service/asio.h"
+#include "service/event_log.h"
+#include "service/frame_server.h"
+#include "service/http_server.h"
+#include "service/hub.h"
+
+namespace lumulus::service {
+
+namespace {
+
+constexpr auto watchPeriod = std::chrono::milliseconds(250);
+/// For replies to leave after the work is done.
+constexpr auto farewell = std::chrono::seconds(2);
+
+class Server {
+  public:
+    explicit Server(const Config& config)
+        : hub_(config, [this](std::function<void()> call) { asio::post(io_, std::move(call)); }),
+          frames_(io_, hub_),
+          pages_(io_, hub_),
+          signals_(io_, SIGINT, SIGTERM),
+          watch_(io_) {
+        if (!config.tcp.empty()) frames_.listenTcp(config.tcp);
+        if (!config.unixSocket.empty()) frames_.listenUnix(config.unixSocket, config.unixMode);
+        if (!config.http.empty()) pages_.listen(config.http);
+        logEvent("info", "listening", {{"frames", frames_.addresses()}, {"http", pages_.address()}});
+    }
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+    ~Server() {
+        if (finishing_.joinable()) finishing_.join();
+    }
+
+    void run() {
+        asio::co_spawn(io_, watch(), asio::detached);
+        signals_.async_wait([this](const error_code& error, int) {
+            if (!error) shutDown();
+        });
+        io_.run();
+        logEvent("info", "stopped", nullptr);
+    }
+
+  private:
+    asio::awaitable<void> watch() {
+        error_code error;
+        while (!error) {
+            watch_.expires_after(watchPeriod);
+            co_await watch_.async_wait(intoError(error));
+            hub_.watch(Clock::now());
+        }
+    }
+
+    void shutDown() {
+        logEvent("info", "shutting_down", nullptr);
+        hub_.refuseNew();
+        frames_.close();
+        pages_.close();
+        finishing_ = std::thread([this] {
+            hub_.finishWork();
+            // after the replies, which were posted before
+            asio::post(io_, [this] {
+                hub_.closeAll();
+                asio::co_spawn(io_, leave(), asio::detached);
+            });
+        });
+    }
+
+    asio::awaitable<void> leave() {
+        const auto latest = Clock::now() + farewell;
+        asio::steady_timer timer(io_);
+        error_code ignored;
+        while (hub_.connections() > 0 && Clock::now() < latest) {
+            timer.expires_after(std::chrono::milliseconds(10));
+            co_await timer.async_wait(intoError(ignored));
+        }
+        io_.stop();
+    }
+
+    asio::io_context io_{1};
+    Hub hub_;
+    FrameServer frames_;
+    HttpServer pages_;
+    asio::signal_set signals_;
+    asio::steady_timer watch_;
+    std::thread finishing_;
+};
+
+}  // namespace
+
+void serve(const Config& config) {
+    Server(config).run();
+}
+
+}  // namespace lumulus::service

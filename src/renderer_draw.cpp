@@ -1,0 +1,255 @@
+// Drawing of a view.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "draw/sky.h"
+#include "draw/view.h"
+#include "fog/frame.h"
+#include "renderer_state.h"
+
+namespace lumulus {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The part of a picture.
+LayeredImage cropped(const LayeredImage& whole, const Tile& tile) {
+    LayeredImage part;
+    part.width = tile.width;
+    part.height = tile.height;
+    for (const auto& [name, values] : whole.layers) {
+        auto& target = part.layer(name);
+        for (int y = 0; y < tile.height; ++y) {
+            const auto from = values.begin() + static_cast<std::ptrdiff_t>(tile.y + y) * whole.width + tile.x;
+            std::copy_n(from, tile.width, target.begin() + static_cast<std::ptrdiff_t>(y) * tile.width);
+        }
+    }
+    return part;
+}
+
+}  // namespace
+
+void Renderer::State::addTimes(const std::vector<gpu::PassTime>& times) {
+    for (const gpu::PassTime& pass : times) {
+        const auto known = std::find_if(statistics.passes.begin(), statistics.passes.end(),
+                                        [&](const PassTime& t) { return t.name == pass.name; });
+        if (known == statistics.passes.end())
+            statistics.passes.push_back({pass.name, pass.milliseconds});
+        else
+            known->milliseconds += pass.milliseconds;
+    }
+}
+
+void Renderer::State::makeLightField(std::uint64_t forPhotons) {
+    const cloud::CellGrid grid = draw::lightGrid(*cloud, forPhotons);
+    if (!lightField || !(grid == lightField->grid())) lightField.emplace(context, *cloud, grid, depositGrid);
+}
+
+glm::dvec3 Renderer::State::toVoxel(const glm::dvec3& world) const {
+    return glm::inverse(cloud->toWorld.linear) * (world - cloud->toWorld.translation);
+}
+
+glm::vec3 Renderer::State::eyeVoxel() const {
+    // An orthographic eye is far away: all collectors see it in one direction.
+    glm::dvec3 eye = camera.position;
+    if (camera.projection == scene::Projection::orthographic)
+        eye -= camera.axes[2] * (1e5 * glm::length(cloud->toWorld.linear * glm::dvec3(cloud->size)));
+    return glm::vec3(toVoxel(eye));
+}
+
+shared::FieldParams Renderer::State::fieldParams() const {
+    shared::FieldParams field{};
+    field.worldToVoxel = glm::mat3(glm::inverse(cloud->toWorld.linear));
+    field.eyeVoxel = glm::vec3(toVoxel(camera.position));
+    field.size = glm::vec3(cloud->size);
+    field.cells = cloud->cells.cells;
+    field.cellSize = cloud->cells.cellSize;
+    field.extinction = static_cast<float>(medium.extinction);
+    field.voxelLength = static_cast<float>(std::cbrt(cloud->voxelVolume));
+    if (lightField) field.radianceScale = lightField->scale();
+    if (sunDepth) {
+        field.voxelToSun = sunDepth->voxelToTexture();
+        field.sunOffset = sunDepth->textureOffset();
+    }
+    return field;
+}
+
+/// Light in the cloud as this view sees it; the sun's depths only once.
+void Renderer::State::recordLight(photon::Part part) {
+    if (sunDepth && !sunDrawn) {
+        sunDepth->record(commands, -sunlight.directionTo, medium.extinction);
+        if (collectorSun) {
+            commands.barrier("sun depths");
+            collectorSun->record(commands, *sunDepth);
+        }
+        sunDrawn = true;
+    }
+    if (photons) {
+        const photon::Light light = photons->light(part);
+        photons->reconstruct(commands, eyeVoxel(), light);
+        commands.barrier("collector radiance");
+        lightField->record(
+            commands, photons->radiance(),
+            {*light.counts, photons->depositBase(), light.unit, photons->photonPower(), photons->massScale()});
+    }
+}
+
+void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params,
+                               const draw::Band& band) {
+    shared::DrawParams values{};
+    values.view = draw::viewParams(camera);
+    values.light = draw::lightParams(sunlight, scene.sky, medium.albedo, medium.tables);
+    values.light.sunDisc = draw::lightParams(scene.sun, scene.sky, medium.albedo, medium.tables).sunDisc;
+    values.field = fieldParams();
+    values.firstColumn = tile.x;
+    values.columns = tile.width;
+    values.firstRow = tile.y + band.first;
+    values.rows = band.rows;
+    values.samples = raysAcross;
+    values.tilesAcross = billboards ? billboards->tilesAcross() : 0;
+    params.mapped<shared::DrawParams>()[0] = values;
+    commands.begin();
+    if (billboards)
+        billboards->record(commands, inputs, values);
+    else
+        march->record(commands, inputs, values);
+    commands.submit();
+    commands.wait();
+    addTimes(commands.times());
+    draw::copyPixels(inputs.pixels.mapped<const shared::Pixel>(), image, band.first, band.rows);
+}
+
+/// The light that this view sees, by all photons or by a part of them.
+void Renderer::State::drawLight(photon::Part part) {
+    if (photons) makeLightField(std::max<std::uint64_t>(1, photons->photonsInRing()));
+    if (sunDepth || photons) {
+        commands.begin();
+        recordLight(part);
+        commands.submit();
+        commands.wait();
+        addTimes(commands.times());
+    }
+    if (billboards)
+        billboards->prepare(camera, medium.extinction,
+                            collectorSun ? collectorSun->values() : std::span<const float>());
+}
+
+void Renderer::State::drawBands(LayeredImage& image, const std::vector<draw::Band>& bands, const Report& told) {
+    gpu::Buffer params(context, "draw params", sizeof(shared::DrawParams), gpu::Memory::host);
+    const gpu::Buffer pixels(context, "pixels",
+                             static_cast<std::uint64_t>(draw::bandRows(tile)) * static_cast<std::uint64_t>(tile.width) *
+                                 sizeof(shared::Pixel),
+                             gpu::Memory::host);
+    // Stands for fields that the scene does not have: the shaders never read it, but every binding must be there.
+    const gpu::Image none(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT);
+    const draw::FrameInputs inputs{params, *phase, lightField ? lightField->image() : none,
+                                   sunDepth ? sunDepth->image() : none, pixels};
+    told("drawing", 0, bands.size());
+    for (std::size_t done = 0; done < bands.size(); ++done) {
+        check();
+        drawBand(image, inputs, params, bands[done]);
+        told("drawing", done + 1, bands.size());
+    }
+    statistics.gpuBytes = context.allocatedBytes();
+}
+
+void Renderer::State::applyFog(LayeredImage& image) {
+    report("fog", 0, 1);
+    fog::applyToFrame(*fog, image, camera, scene.sky.radiance);
+    addTimes(fog->takeTimes());
+    statistics.gpuBytes = context.allocatedBytes();
+    report("fog", 1, 1);
+}
+
+LayeredImage Renderer::draw() {
+    return draw(sceneView());
+}
+
+View Renderer::sceneView() const {
+    View view;
+    view.camera = state_->scene.camera;
+    view.image = state_->scene.image;
+    return view;
+}
+
+int Renderer::raysAcross(const View& view) const {
+    const State& s = *state_;
+    if (!s.cloud) return 1;
+    const glm::dvec3 centre = s.cloud->toWorld.point(0.5 * glm::dvec3(s.cloud->size));
+    return std::min(view.mostRays,
+                    draw::raysAcross(makeCamera(view, s.bounds), centre, std::cbrt(s.cloud->voxelVolume)));
+}
+
+const Bounds& Renderer::bounds() const {
+    return state_->bounds;
+}
+
+void Renderer::State::showView(const View& view) {
+    camera = makeCamera(view, bounds);
+    tile = drawnTile(view);
+}
+
+LayeredImage Renderer::draw(const View& view) {
+    State& s = *state_;
+    const auto start = Clock::now();
+    s.showView(view);
+    s.raysAcross = raysAcross(view);
+    const Tile wanted = s.tile;
+    if (s.fog) s.tile = {0, 0, view.image.width, view.image.height};  // its filter sees beyond the tile
+    LayeredImage image = draw::skyImage(s.camera, s.tile, s.scene.sun, s.scene.sky);
+    s.statistics.passes.clear();
+    if (s.photons) {
+        s.photons->settle();
+        s.addTimes(s.photons->times());
+    }
+    if (s.billboards || s.march) {
+        s.drawLight(photon::Part::all);
+        s.drawBands(image, draw::allBands(s.tile), s.report);
+    }
+    if (s.fog) {
+        s.applyFog(image);
+        if (!(wanted == s.tile)) image = cropped(image, wanted);
+    }
+    s.statistics.drawSeconds += secondsSince(start);
+    return image;
+}
+
+/// Of the passes that were drawn last.
+double Renderer::State::passSeconds() const {
+    double milliseconds = 0.0;
+    for (const PassTime& pass : statistics.passes) milliseconds += pass.milliseconds;
+    return 1e-3 * milliseconds;
+}
+
+Preview Renderer::preview() {
+    State& s = *state_;
+    Preview preview;
+    const View view = sceneView();
+    s.showView(view);
+    s.raysAcross = raysAcross(view);
+    const std::vector<draw::Band> bands = draw::sampleBands(s.tile);
+    for (const draw::Band& band : bands)
+        for (int row = 0; row < band.rows; ++row) preview.rows.push_back(band.first + row);
+    preview.evenGenerations = s.photons->halves().even;
+    preview.oddGenerations = s.photons->halves().odd;
+    for (const photon::Part part : {photon::Part::even, photon::Part::odd}) {
+        auto start = Clock::now();
+        LayeredImage& image = part == photon::Part::even ? preview.even : preview.odd;
+        image = draw::skyImage(s.camera, s.tile, s.scene.sun, s.scene.sky);
+        s.drawLight(part);
+        const double whole = secondsSince(start);
+        s.statistics.passes.clear();
+        s.drawBands(image, bands, noReport);
+        // the first of the two also pays for what is made once
+        preview.forecastSeconds = whole + s.passSeconds() * s.camera.height / static_cast<double>(preview.rows.size());
+    }
+    return preview;
+}
+
+}  // namespace lumulus

@@ -1,0 +1,64 @@
+// What changes while a renderer lives: light, extinction and place of the cloud.
+#include <algorithm>
+#include <cassert>
+
+#include "base/error.h"
+#include "fog/media.h"
+#include "renderer_state.h"
+
+namespace lumulus {
+
+Generations Renderer::generations() const {
+    Generations result;
+    if (!state_->photons) return result;
+    result.first = state_->photons->firstInRing();
+    result.count = state_->photons->generationsInRing();
+    result.current = std::min(result.count, state_->sinceChange);
+    result.photonsEach = state_->photons->photonsInRing() / static_cast<std::uint64_t>(std::max(1, result.count));
+    return result;
+}
+
+void Renderer::State::dimSun() {
+    sunlight = scene.sun;
+    if (fog) sunlight.irradiance *= fog::sunTransmittance(scene.fog, bounds.centre, scene.sun.directionTo);
+}
+
+void Renderer::State::lightChanged() {
+    assert(keepRing);
+    dimSun();
+    sunDrawn = false;
+    sinceChange = 0;
+}
+
+bool Renderer::setSun(const glm::dvec3& directionTo, const glm::dvec3& irradiance) {
+    State& s = *state_;
+    if (directionTo == s.scene.sun.directionTo && irradiance == s.scene.sun.irradiance) return false;
+    if (!s.hasSun() && !s.sunDepth)
+        throw InputError("the scene was made without a sun", "sun.irradiance", "load a scene with one");
+    s.scene.sun.directionTo = directionTo;
+    s.scene.sun.irradiance = irradiance;
+    s.lightChanged();
+    return true;
+}
+
+bool Renderer::setExtinction(double extinction) {
+    State& s = *state_;
+    if (!s.cloud || !(extinction > 0.0))
+        throw InputError("an extinction of 0 cannot be changed or reached", "extinction", "load another scene");
+    double& now = s.scene.clouds[0].extinction;
+    if (extinction == now) return false;
+    s.medium.extinction *= extinction / now;
+    now = extinction;
+    if (s.photons) s.photons->setExtinction(s.medium.extinction);
+    s.lightChanged();
+    return true;
+}
+
+void Renderer::setOffset(const glm::dvec3& offset) {
+    State& s = *state_;
+    if (offset == s.offset) return;
+    if (s.cloud) s.cloud->toWorld.translation += offset - s.offset;
+    s.offset = offset;
+}
+
+}  // namespace lumulus

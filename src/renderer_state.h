@@ -1,0 +1,91 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+#include "cloud/cloud.h"
+#include "draw/bands.h"
+#include "draw/billboards.h"
+#include "draw/camera.h"
+#include "draw/collector_sun.h"
+#include "draw/light_field.h"
+#include "draw/march.h"
+#include "draw/sun_depth.h"
+#include "fog/fog.h"
+#include "gpu/commands.h"
+#include "photon/photon_map.h"
+#include "renderer.h"
+
+namespace lumulus {
+
+inline double largest(const glm::dvec3& v) {
+    return std::max(v.x, std::max(v.y, v.z));
+}
+
+/// What a Renderer owns; for the files that implement it.
+struct Renderer::State {
+    State(const scene::Scene& theScene, const RendererOptions& options)
+        : scene(theScene),
+          report(options.report),
+          check(options.check),
+          context({options.device, options.validation}),
+          commands(context),
+          keepRing(options.keepRing),
+          progressive(options.progressive) {}
+
+    scene::Scene scene;
+    Report report;
+    Check check;
+    gpu::Context context;
+    gpu::Commands commands;
+    bool keepRing, progressive;
+    Bounds bounds;
+    Camera camera;  // of the picture that is drawn, as is its part
+    Tile tile;
+    int raysAcross = 1;
+    glm::dvec3 offset{0.0};
+
+    // What follows exists only where the scene needs it.
+    photon::Medium medium;
+    std::optional<cloud::Cloud> cloud;
+    cloud::CellGrid depositGrid;
+    std::optional<photon::PhotonMap> photons;
+    std::optional<draw::SunDepth> sunDepth;
+    std::optional<draw::CollectorSun> collectorSun;
+    std::optional<draw::PhaseTables> phase;
+    std::optional<draw::LightField> lightField;
+    std::optional<draw::Billboards> billboards;
+    std::optional<draw::March> march;
+    std::optional<fog::Fog> fog;
+    scene::Sun sunlight = scene.sun;  ///< that reaches the cloud through the fog
+
+    bool sunDrawn = false;  // the sun's depths are up to date
+    int sinceChange = 0;    // generations under the light of now
+    Statistics statistics;
+
+    bool scatters() const { return largest(medium.albedo) > 0.0; }
+    bool hasSun() const { return largest(scene.sun.irradiance) > 0.0; }
+    bool hasLight() const { return hasSun() || largest(scene.sky.radiance) > 0.0; }
+
+    void makeMedium(const scene::Cloud& from, double maximum);
+    void prepareCloud(const vdb::Volume& volume);
+    void preparePhotons();
+    void prepareDrawing();
+    void dimSun();
+    void lightChanged();
+    void showView(const View& view);
+    shared::FieldParams fieldParams() const;
+    void makeLightField(std::uint64_t forPhotons);
+    void recordLight(photon::Part part);
+    void drawLight(photon::Part part);
+    void drawBands(LayeredImage& image, const std::vector<draw::Band>& bands, const Report& told);
+    void drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params, const draw::Band& band);
+    void addTimes(const std::vector<gpu::PassTime>& times);
+    double passSeconds() const;
+    void applyFog(LayeredImage& image);
+    glm::dvec3 toVoxel(const glm::dvec3& world) const;
+    glm::vec3 eyeVoxel() const;
+};
+
+}  // namespace lumulus

@@ -1,0 +1,251 @@
+"""Frames over the socket: what they hold, that `render` makes the same, channels, streams, deadlines, idleness."""
+
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import numpy
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
+from exr_reader import read_exr
+from server import LUMULUS, SCENE, Server, ServiceTest
+from lumulus_client import ServiceError
+
+ALL = ["color", "cloud", "transmittance", "depth", "front"]
+LAYERS = {"color": ["R", "G", "B", "A"], "cloud": ["cloud.R", "cloud.G", "cloud.B"],
+          "transmittance": ["transmittance.R", "transmittance.G", "transmittance.B"], "depth": ["depth.Z"],
+          "front": ["depth.front"]}
+
+
+def run_render(scene, overrides):
+    """Layers of what `render` writes, by name, as arrays."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "picture.exr")
+        settings = [argument for override in overrides for argument in ("--set", override)]
+        subprocess.run([LUMULUS, "render", scene, "-o", path, "--quiet", *settings], check=True)
+        width, height, layers = read_exr(path)[:3]
+        return {name: numpy.array(values, "f").reshape(height, width) for name, values in layers.items()}
+
+
+class Equality(ServiceTest):
+    """Every frame is what `render` writes with the overrides that the reply states."""
+
+    def check(self, frame, overrides=()):
+        layers = run_render(os.path.join(self.server.folder, "scenes", "small.toml"),
+                            [*overrides, *frame.info["repeat"]])
+        self.assertTrue(frame.verify())
+        for part in frame.info["views"][0]["products"]:
+            expected = numpy.stack([layers[name] for name in LAYERS[part["name"]]], axis=2)
+            if part["type"] == "half":
+                with numpy.errstate(over="ignore"):
+                    expected = expected.astype(numpy.float16)
+            numpy.testing.assert_array_equal(frame.values(part["name"]), expected, part["name"])
+
+    def test_the_whole_ring(self):
+        with self.server.client() as client:
+            frame = client.frame(products=ALL)
+            self.assertEqual(frame.info["generations"], 4)
+            self.check(frame)
+            self.check(client.frame(products=ALL, encoding="float"))
+
+    def test_while_the_ring_fills(self):
+        with self.server.client() as client:
+            client.load_scene("small.toml", private=True, set=["photon_map.generations=7"])
+            for photons in (1, 15000, 23000):
+                frame = client.frame(products=ALL, budget={"photons": photons})
+                self.assertGreaterEqual(frame.info["photons"], photons)
+                self.check(frame)
+
+    def test_after_the_sun_moved(self):
+        with self.server.client() as client:
+            client.load_scene("small.toml", private=True)
+            client.frame()
+            sun = {"azimuth": -100, "elevation": 10}
+            frame = client.frame(products=ALL, sun=sun)
+            self.assertEqual(frame.info["current_generations"], 4)
+            self.assertEqual(frame.info["first_generation"], 4)
+            self.check(frame)
+
+    def test_in_a_stream(self):
+        with self.server.client() as client:
+            client.load_scene("small.toml", private=True)
+            stream = client.start_stream(max_rate=1000)
+            for _ in range(6):
+                self.check(client.next_frame(stream))
+
+    def test_other_cameras_and_sizes(self):
+        with self.server.client() as client:
+            frame = client.frame(camera={"position": [300, 50, 20], "target": [0, 100, 0], "vertical_fov": 60},
+                                 width=40, height=31)
+            self.check(frame, ["camera.position=[300,50,20]", "camera.target=[0,100,0]", "camera.vertical_fov=60",
+                               "image.width=40", "image.height=31"])
+
+    def test_an_exr_is_the_layers(self):
+        with self.server.client() as client:
+            frame = client.frame(products=ALL, encoding="exr")
+            with tempfile.NamedTemporaryFile(suffix=".exr") as file:
+                file.write(frame.file())
+                file.flush()
+                width, height, layers = read_exr(file.name)[:3]
+            expected = run_render(os.path.join(self.server.folder, "scenes", "small.toml"), frame.info["repeat"])
+            self.assertEqual(set(layers), set(expected))
+            for name, values in layers.items():
+                numpy.testing.assert_array_equal(numpy.array(values, "f").reshape(height, width), expected[name])
+
+
+class Behaviour(ServiceTest):
+    def test_views_share_one_moment(self):
+        with self.server.client() as client:
+            whole = client.frame(width=64, height=48)
+            tiles = client.frame(views=[{"width": 64, "height": 48, "tile": tile}
+                                        for tile in ([0, 0, 33, 48], [33, 0, 31, 48])])
+            joined = numpy.concatenate([tiles.values(view=0), tiles.values(view=1)], axis=1)
+            numpy.testing.assert_array_equal(joined, whole.values())
+
+    def test_a_cut_shows_nothing_of_before(self):
+        far = {"position": [0, 100, 5000], "target": [0, 100, 6000]}
+        with self.server.client() as client:
+            for _ in range(2):
+                self.assertGreater(client.frame().values()[..., 3].max(), 0.1)
+                self.assertEqual(client.frame(camera=far).values()[..., 3].max(), 0.0)
+
+    def test_the_latest_wins(self):
+        with self.server.client() as client:
+            requests = [client.send("frame", {"width": 256, "height": 192, "time": number}) for number in range(30)]
+            outcomes = []
+            for request in requests:
+                try:
+                    outcomes.append(client.wait(request)[0]["time"])
+                except ServiceError as error:
+                    self.assertEqual(error.code, "superseded")
+            self.assertEqual(outcomes[-1], 29)
+            self.assertLess(len(outcomes), 30)
+
+    def test_a_queue_keeps_all_and_refuses_too_many(self):
+        with self.server.client() as client:
+            requests = [client.send("frame", {"queue": True, "width": 256, "height": 192}) for _ in range(30)]
+            codes = []
+            for request in requests:
+                try:
+                    client.wait(request)
+                    codes.append("frame")
+                except ServiceError as error:
+                    codes.append(error.code)
+            self.assertGreaterEqual(codes.count("frame"), 8)
+            self.assertEqual(set(codes), {"frame", "busy"})
+
+    def test_channels_do_not_replace_each_other(self):
+        with self.server.client() as client:
+            requests = [client.send("frame", {"channel": channel}) for channel in range(6)]
+            self.assertEqual([client.wait(request)[0]["channel"] for request in requests], list(range(6)))
+
+    def test_deadlines_are_kept_by_doing_less(self):
+        with self.server.client() as client:
+            client.frame(width=1024, height=768)  # teaches the service what pixels cost
+            relaxed = client.frame(width=1024, height=768, budget={"milliseconds": 60000}).info
+            self.assertEqual((relaxed["reduction"], relaxed["budget_met"]), (1, True))
+            hasty = client.frame(width=1024, height=768, budget={"milliseconds": 0.4 * relaxed["milliseconds"]["draw"]})
+            self.assertGreater(hasty.info["reduction"], 1)
+            self.assertEqual(hasty.values().shape, (768, 1024, 4))
+            none = client.frame(width=256, height=256, budget={"milliseconds": 0}).info
+            self.assertEqual((none["reduction"], none["budget_met"]), (8, False))
+
+    def test_cancel(self):
+        with self.server.client() as client:
+            client.load_scene("small.toml", private=True, set=["photon_map.generations=40",
+                                                               "photon_map.photons=8000000"])
+            request = client.send("frame")
+            time.sleep(0.2)
+            client.cancel(request)
+            with self.assertRaises(ServiceError) as caught:
+                client.wait(request)
+            self.assertEqual(caught.exception.code, "cancelled")
+
+    def test_light_ages_in_without_freezing(self):
+        with self.server.client() as client:
+            client.load_scene("small.toml", private=True)
+            client.frame()
+            client.change(sun={"azimuth": 10, "elevation": 80}, extinction=0.04, wind=[5, 0, 0])
+            frame = client.frame(budget={"photons": 0})
+            self.assertLess(frame.info["current_generations"], 4)
+            self.assertEqual(frame.info["generations"], 4)
+            moved = client.frame(time=20)
+            self.assertEqual(moved.info["current_generations"], 4)
+            self.assertNotEqual(moved.info["hash"], client.frame(time=0).info["hash"])
+
+    def test_scenes_of_others_are_left_alone(self):
+        with self.server.client() as one, self.server.client() as other:
+            before = one.frame().info["hash"]
+            other.load_scene(toml=SCENE.replace("0.03", "0.001"))
+            self.assertNotEqual(other.frame().info["hash"], before)
+            self.assertEqual(one.frame().info["hash"], before)
+
+    def test_refines_and_then_idles(self):
+        with self.server.client() as client:
+            client.load_scene("small.toml", private=True)
+            deadline = time.monotonic() + 30
+            while client.statistics()["scene"]["current_generations"] < 4:
+                self.assertLess(time.monotonic(), deadline)
+                time.sleep(0.1)
+            stream = client.start_stream(when="change")
+            client.next_frame(stream)
+            time.sleep(0.5)
+            before = self.server.cpu_seconds()
+            time.sleep(3)
+            self.assertLess(self.server.cpu_seconds() - before, 0.1)
+            client.start_stream(stream, when="change", width=32, height=32)
+            self.assertEqual(client.next_frame(stream).info["views"][0]["width"], 32)
+
+    def test_unix_socket_with_its_permissions(self):
+        server = Server(LUMULUS, listen='unix = "frames.sock"\nunix_mode = "0600"')
+        try:
+            path = os.path.join(server.folder, "frames.sock")
+            self.assertEqual(os.stat(path).st_mode & 0o777, 0o600)
+            server.tcp = "unix:" + path
+            with server.client() as client:
+                self.assertTrue(client.frame().verify())
+        finally:
+            self.assertEqual(server.stop(), 0)
+        self.assertFalse(os.path.exists(path))
+
+    def test_fetch(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, magic in (("a.exr", b"\x76\x2f\x31\x01"), ("a.png", b"\x89PNG"), ("a.jpg", b"\xff\xd8")):
+                path = os.path.join(folder, name)
+                subprocess.run([LUMULUS, "fetch", "--address", self.server.tcp, "-o", path,
+                                "--width", "50", "--height", "40", "--sun", "20", "30"], check=True)
+                with open(path, "rb") as file:
+                    self.assertTrue(file.read(8).startswith(magic))
+            with socket.socket() as taken:
+                taken.bind(("127.0.0.1", 0))
+                result = subprocess.run([LUMULUS, "fetch", "-o", path, "--address",
+                                         f"127.0.0.1:{taken.getsockname()[1]}"], capture_output=True, text=True)
+            self.assertEqual(result.returncode, 1)
+            self.assertEqual(result.stderr.count("\n"), 1)
+
+
+class Ending(unittest.TestCase):
+    def test_finishes_what_it_promised(self):
+        server = Server(LUMULUS)
+        with server.client() as client:
+            stream = client.start_stream(max_rate=5)
+            client.next_frame(stream)
+            request = client.send("frame", {"width": 512, "height": 384})
+            time.sleep(0.1)
+            started = time.monotonic()
+            server.process.terminate()
+            self.assertTrue(client.wait(request)[1])
+            with self.assertRaises(ServiceError) as caught:
+                while True:
+                    client.next_frame(stream)
+            self.assertEqual(caught.exception.code, "shutting_down")
+        self.assertEqual(server.stop(), 0)
+        self.assertLess(time.monotonic() - started, 15)
+
+
+if __name__ == "__main__":
+    unittest.main()

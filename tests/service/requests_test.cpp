@@ -1,0 +1,143 @@
+// From JSON to values: what is taken, and what is refused with the name of the field.
+#include "service/requests.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "service/json_fields.h"
+#include "support/service_messages.h"
+
+namespace lumulus::service {
+namespace {
+
+using test::bytesOf;
+using test::request;
+
+/// "code: where" of the refusal; "taken" where there is none.
+std::string refusal(const Message& message, const RequestLimits& limits = {}) {
+    try {
+        parseRequest(message, limits);
+    } catch (const RequestError& e) {
+        return e.code + ": " + e.where;
+    }
+    return "taken";
+}
+
+std::string frameRefusal(const std::string& json) {
+    return refusal(request(MessageType::frame, json));
+}
+
+TEST(Requests, EveryKindIsTaken) {
+    for (const Message& message : test::validMessages()) EXPECT_EQ(refusal(message), "taken") << message.json;
+    EXPECT_EQ(refusal(request(MessageType::frame, "")), "taken");
+}
+
+TEST(Requests, AFrameSaysWhatItSays) {
+    const Message message = test::validMessages().at(4);
+    const auto frame = std::get<FrameRequest>(parseRequest(message, {}));
+    EXPECT_EQ(frame.channel, 3U);
+    ASSERT_EQ(frame.views.size(), 1U);
+    EXPECT_EQ(frame.views[0].camera.position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(frame.views[0].width, 64);
+    EXPECT_EQ(frame.views[0].tile, (Tile{0, 0, 32, 24}));
+    EXPECT_EQ(frame.time, 1.5);
+    EXPECT_EQ(*frame.light.sunDirection, scene::skyDirection(10, 20));
+    EXPECT_EQ(frame.light.sunIrradiance, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(frame.light.wind, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(frame.budget.milliseconds, 50.0);
+    EXPECT_EQ(frame.encoding, Encoding::exr);
+    EXPECT_THAT(frame.products, testing::ElementsAre(Product::color, Product::depth));
+}
+
+TEST(Requests, HostileFramesAreRefusedByField) {
+    EXPECT_EQ(frameRefusal(R"({"camera":{"position":[1e999,0,0]}})"), "bad_request: ");
+    EXPECT_EQ(frameRefusal(R"({"camera":{"position":[NaN,0,0]}})"), "bad_request: ");
+    EXPECT_EQ(frameRefusal(R"({"camera":{"position":[null,0,0]}})"), "bad_request: camera.position");
+    EXPECT_EQ(frameRefusal(R"({"camera":{"position":[1,2]}})"), "bad_request: camera.position");
+    EXPECT_EQ(frameRefusal(R"({"camera":{"position":"here"}})"), "bad_request: camera.position");
+    EXPECT_EQ(frameRefusal(R"({"camera":{"up":[0,0,0]}})"), "bad_request: camera.up");
+    EXPECT_EQ(frameRefusal(R"({"camera":{"position":[0,0,0],"orientation":[0,0,0,0]}})"),
+              "bad_request: camera.orientation");
+    EXPECT_EQ(frameRefusal(R"({"camera":{"frustum":[1,-1,0,1]}})"), "bad_request: camera.frustum");
+    EXPECT_EQ(frameRefusal(R"({"camera":[]})"), "bad_request: camera");
+    EXPECT_EQ(frameRefusal(R"({"width":0,"height":0})"), "bad_request: width");
+    EXPECT_EQ(frameRefusal(R"({"width":1000000000,"height":1000000000})"), "bad_request: width");
+    EXPECT_EQ(frameRefusal(R"({"width":16384,"height":16384})"), "too_large: width");
+    EXPECT_EQ(frameRefusal(R"({"width":2.5})"), "bad_request: width");
+    EXPECT_EQ(frameRefusal(R"({"tile":[0.5,0,1,1]})"), "bad_request: tile");
+    EXPECT_EQ(frameRefusal(R"({"budget":{"milliseconds":-1}})"), "bad_request: budget.milliseconds");
+    EXPECT_EQ(frameRefusal(R"({"budget":{"photons":-5}})"), "bad_request: budget.photons");
+    EXPECT_EQ(frameRefusal(R"({"budget":{"photons":5,"milliseconds":5}})"), "bad_request: budget");
+    EXPECT_EQ(frameRefusal(R"({"products":["color","color"]})"), "bad_request: products");
+    EXPECT_EQ(frameRefusal(R"({"products":["depth"],"encoding":"png"})"), "bad_request: products");
+    EXPECT_EQ(frameRefusal(R"({"views":[]})"), "bad_request: views");
+    EXPECT_EQ(frameRefusal(R"({"views":[{"camera":{"zoom":2}}]})"), "bad_request: views[0].camera.zoom");
+    EXPECT_EQ(frameRefusal(R"({"width":8,"views":[{}]})"), "bad_request: views");
+    EXPECT_EQ(frameRefusal(R"({"sun":{"azimuth":1,"direction_to":[0,1,0]}})"), "bad_request: sun");
+    EXPECT_EQ(frameRefusal(R"({"extinction":-1})"), "bad_request: extinction");
+    EXPECT_EQ(frameRefusal(R"({"wdith":8})"), "bad_request: wdith");
+    EXPECT_EQ(frameRefusal("[1,2]"), "bad_request: ");
+    EXPECT_EQ(frameRefusal("{\"a\":"), "bad_request: ");
+}
+
+TEST(Requests, JsonBombsAreRefused) {
+    for (const char bracket : {'[', '{'}) {
+        const std::string deep = "{\"a\":" + std::string(60000, bracket);
+        EXPECT_EQ(frameRefusal(deep), "bad_request: ");
+    }
+    std::string wide = "{\"views\":[{}";
+    for (int i = 0; i < 20000; ++i) wide += ",{}";
+    EXPECT_EQ(frameRefusal(wide + "]}"), "bad_request: views");
+    EXPECT_EQ(frameRefusal(R"({"a":"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[\"[[[["})"), "bad_request: a");
+}
+
+TEST(Requests, LimitsAreThoseOfTheConfiguration) {
+    RequestLimits limits;
+    limits.pixels = 100;
+    limits.views = 2;
+    limits.uploadBytes = 10;
+    EXPECT_EQ(refusal(request(MessageType::frame, R"({"width":10,"height":10})"), limits), "taken");
+    EXPECT_EQ(refusal(request(MessageType::frame, R"({"width":11,"height":10})"), limits), "too_large: width");
+    EXPECT_EQ(refusal(request(MessageType::frame, R"({"width":1000,"height":1000,"tile":[0,0,10,10]})"), limits),
+              "taken");
+    EXPECT_EQ(refusal(request(MessageType::frame, R"({"views":[{},{},{}]})"), limits), "bad_request: views");
+    const std::string hash(64, '0');
+    EXPECT_EQ(refusal(request(MessageType::upload, R"({"hash":")" + hash + R"(","size":11,"offset":0})"), limits),
+              "too_large: size");
+}
+
+TEST(Requests, UploadsStayWithinTheirSize) {
+    const auto upload = [](const std::string& hash, int size, int offset, const char* bytes) {
+        return refusal(request(MessageType::upload,
+                               R"({"hash":")" + hash + R"(","size":)" + std::to_string(size) + R"(,"offset":)" +
+                                   std::to_string(offset) + "}",
+                               bytesOf(bytes)));
+    };
+    const std::string hash(64, 'b');
+    EXPECT_EQ(upload(hash, 4, 0, "abcd"), "taken");
+    EXPECT_EQ(upload(hash, 4, 1, "abcd"), "bad_request: offset");
+    EXPECT_EQ(upload(hash, 4, 5, ""), "bad_request: offset");
+    EXPECT_EQ(upload("../../etc/passwd", 4, 0, "abcd"), "bad_request: hash");
+    EXPECT_EQ(upload(std::string(64, 'B'), 4, 0, "abcd"), "bad_request: hash");
+}
+
+TEST(Requests, ACompositeHasItsPixels) {
+    EXPECT_EQ(refusal(request(MessageType::composite, R"({"width":2,"height":1})", std::vector<std::byte>(31))),
+              "bad_request: ");
+    EXPECT_EQ(refusal(request(MessageType::composite, R"({"width":2,"height":1})", std::vector<std::byte>(32))),
+              "taken");
+    EXPECT_EQ(refusal(request(MessageType::composite, R"({"width":0,"height":1})")), "bad_request: width");
+    std::vector<std::byte> infinite(16);
+    infinite[3] = std::byte{0x7F};
+    infinite[2] = std::byte{0x80};
+    EXPECT_EQ(refusal(request(MessageType::composite, R"({"width":1,"height":1})", infinite)), "bad_request: ");
+}
+
+TEST(Requests, PayloadsAndTypesThatNobodyKnowsAreRefused) {
+    EXPECT_EQ(refusal(request(MessageType::frame, "{}", bytesOf("x"))), "bad_request: ");
+    for (const int type : {0, 12, 77, 0x7FFF, 0x8000, 0x8004, 0xFFFF})
+        EXPECT_EQ(refusal(request(static_cast<MessageType>(type), "{}")), "unknown_type: ") << type;
+}
+
+}  // namespace
+}  // namespace lumulus::service

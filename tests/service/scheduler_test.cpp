@@ -1,0 +1,184 @@
+// Which picture comes next: turns, latest wins, streams by rate and change, clients that do not read.
+#include "service/scheduler.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "service/json_fields.h"
+
+namespace lumulus::service {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+class SchedulerTest : public testing::Test {
+  protected:
+    Scheduler scheduler{{3, 2, 2}};
+    Clock::time_point now{};
+    std::uint64_t revision = 1;
+
+    void SetUp() override {
+        for (const ClientId client : {1U, 2U}) scheduler.addClient(client);
+    }
+    Job frame(ClientId client, std::uint64_t id, std::uint32_t channel = 0, bool queue = false) {
+        FrameRequest request;
+        request.channel = channel;
+        request.queue = queue;
+        Job job;
+        job.client = client;
+        job.id = id;
+        job.work = workOf(request);
+        job.arrived = now;
+        return job;
+    }
+    StartStream stream(double rate, bool onChange) {
+        StartStream start;
+        start.maxRate = rate;
+        start.onChange = onChange;
+        return start;
+    }
+    /// Id of the next picture, finished at once; 0 where there is none.
+    std::uint64_t next() {
+        const auto job = take();
+        if (job) scheduler.done(*job);
+        return job ? job->id : 0;
+    }
+    std::optional<Job> take() {
+        return scheduler.take(now, [this](ClientId) { return revision; });
+    }
+    std::optional<Clock::time_point> due() {
+        return scheduler.nextDue([this](ClientId) { return revision; });
+    }
+};
+
+TEST_F(SchedulerTest, ClientsTakeTurns) {
+    for (const std::uint64_t id : {10U, 11U, 12U}) scheduler.submit(frame(1, id, 0, true));
+    scheduler.submit(frame(2, 20));
+    EXPECT_EQ(next(), 10U);
+    EXPECT_EQ(next(), 20U);
+    EXPECT_EQ(next(), 11U);
+    EXPECT_EQ(next(), 12U);
+    EXPECT_EQ(next(), 0U);
+}
+
+TEST_F(SchedulerTest, TheLatestOfAChannelWins) {
+    EXPECT_THAT(scheduler.submit(frame(1, 10, 0)), IsEmpty());
+    EXPECT_THAT(scheduler.submit(frame(1, 11, 1)), IsEmpty());
+    EXPECT_THAT(scheduler.submit(frame(1, 12, 0)), ElementsAre(10U));
+    EXPECT_THAT(scheduler.submit(frame(2, 20, 0)), IsEmpty());
+    EXPECT_EQ(next(), 11U);
+    EXPECT_EQ(next(), 20U);
+    EXPECT_EQ(next(), 12U);
+}
+
+TEST_F(SchedulerTest, QueuesAreBounded) {
+    for (const std::uint64_t id : {1U, 2U, 3U}) scheduler.submit(frame(1, id, 0, true));
+    EXPECT_THROW(scheduler.submit(frame(1, 4, 0, true)), RequestError);
+    scheduler.startStream(2, 1, stream(10, false), now);
+    scheduler.startStream(2, 2, stream(10, false), now);
+    EXPECT_THROW(scheduler.startStream(2, 3, stream(10, false), now), RequestError);
+    scheduler.startStream(2, 2, stream(20, false), now);  // the same one
+    EXPECT_EQ(scheduler.streams(), 2U);
+}
+
+TEST_F(SchedulerTest, WhatIsPutBackGoesOnAfterTheOthers) {
+    scheduler.submit(frame(1, 10));
+    scheduler.submit(frame(2, 20));
+    const auto first = take();
+    ASSERT_TRUE(first && first->id == 10);
+    EXPECT_TRUE(scheduler.putBack(*first));
+    EXPECT_EQ(next(), 20U);
+    const auto again = take();
+    ASSERT_TRUE(again && again->id == 10);
+    scheduler.submit(frame(1, 11));
+    EXPECT_FALSE(scheduler.putBack(*again));  // superseded meanwhile
+    EXPECT_EQ(next(), 11U);
+}
+
+TEST_F(SchedulerTest, StreamsKeepTheirRate) {
+    scheduler.startStream(1, 7, stream(10, false), now);
+    EXPECT_EQ(next(), 7U);
+    EXPECT_EQ(next(), 0U);
+    EXPECT_EQ(due(), now + milliseconds(100));
+    now += milliseconds(100);
+    EXPECT_EQ(next(), 7U);
+    now += milliseconds(1000);  // late: no bunch of frames
+    EXPECT_EQ(next(), 7U);
+    EXPECT_EQ(next(), 7U);
+    EXPECT_EQ(next(), 0U);
+    EXPECT_TRUE(scheduler.stopStream(1, 7));
+    EXPECT_FALSE(scheduler.stopStream(1, 7));
+    EXPECT_FALSE(due());
+}
+
+TEST_F(SchedulerTest, AStreamOfChangesSleepsWithoutThem) {
+    scheduler.startStream(1, 7, stream(1000, true), now);
+    EXPECT_EQ(next(), 7U);
+    now += milliseconds(1000);
+    EXPECT_EQ(next(), 0U);
+    EXPECT_FALSE(due());  // nothing to wake up for
+    ++revision;
+    EXPECT_EQ(next(), 7U);
+    now += milliseconds(1000);
+    scheduler.startStream(1, 7, stream(1000, true), now);  // new wishes
+    EXPECT_EQ(next(), 7U);
+}
+
+TEST_F(SchedulerTest, WhoDoesNotReadGetsNoMore) {
+    scheduler.startStream(1, 7, stream(1000, false), now);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(next(), 7U);
+        scheduler.frameHandedOver(1);
+        now += milliseconds(10);
+    }
+    EXPECT_EQ(next(), 0U);
+    EXPECT_FALSE(due());
+    scheduler.submit(frame(2, 20));
+    EXPECT_EQ(next(), 20U);
+    scheduler.frameSent(1);
+    EXPECT_EQ(next(), 7U);
+}
+
+TEST_F(SchedulerTest, CancelsWhatWaitsAndFlagsWhatIsUnderWay) {
+    scheduler.submit(frame(1, 10));
+    EXPECT_TRUE(scheduler.cancel(1, 10));
+    EXPECT_FALSE(scheduler.cancel(1, 10));
+    scheduler.submit(frame(1, 11));
+    const auto job = take();
+    EXPECT_FALSE(scheduler.cancel(1, 11));
+    EXPECT_TRUE(job->cancelled->load());
+    EXPECT_FALSE(scheduler.cancel(9, 1));  // nobody of that name
+}
+
+TEST_F(SchedulerTest, AClientThatGoesTakesItsWorkAlong) {
+    scheduler.submit(frame(1, 10));
+    const auto job = take();
+    scheduler.submit(frame(1, 11));
+    scheduler.removeClient(1);
+    EXPECT_TRUE(job->cancelled->load());
+    EXPECT_FALSE(scheduler.putBack(*job));
+    scheduler.frameHandedOver(1);
+    EXPECT_EQ(next(), 0U);
+}
+
+TEST_F(SchedulerTest, WaitsForTheScene) {
+    scheduler.setWaiting(1, true);
+    scheduler.submit(frame(1, 10));
+    EXPECT_EQ(next(), 0U);
+    scheduler.setWaiting(1, false);
+    EXPECT_EQ(next(), 10U);
+}
+
+TEST_F(SchedulerTest, ClearsEverything) {
+    scheduler.submit(frame(1, 10));
+    scheduler.startStream(2, 7, stream(10, false), now);
+    EXPECT_TRUE(scheduler.hasQueued());
+    EXPECT_EQ(scheduler.clear().size(), 2U);
+    EXPECT_FALSE(scheduler.hasQueued());
+    EXPECT_EQ(next(), 0U);
+}
+
+}  // namespace
+}  // namespace lumulus::service

@@ -1,0 +1,25 @@
+# Debian's, which has numpy and selenium
+find_program(DEBIAN_PYTHON3 python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
+
+# service_test(NAME ARGUMENTS…): a Python test against `lumulus serve`.
+function(service_test name)
+  add_test(NAME service.${name} COMMAND ${DEBIAN_PYTHON3} -B ${ARGN} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}/tests/service)
+  set_tests_properties(service.${name} PROPERTIES TIMEOUT 300 ENVIRONMENT "LUMULUS=$<TARGET_FILE:lumulus>")
+endfunction()
+
+foreach(class Equality Behaviour Ending)
+  service_test(frames.${class} frames_test.py ${class})
+endforeach()
+foreach(class Hostile Binding)
+  service_test(hostile.${class} hostile_test.py ${class})
+endforeach()
+foreach(class Faults FullDisk Restart)
+  service_test(faults.${class} faults_test.py ${class})
+endforeach()
+foreach(class Page Phone)
+  service_test(page.${class} page_test.py ${class})
+endforeach()
+service_test(tls tls_test.py)
+service_test(client client_test.py ${CMAKE_BINARY_DIR} $<$<BOOL:${LUMULUS_SANITIZE}>:-fsanitize=address,undefined>)
+# 60 s: /usr/bin/python3 tests/service/load_test.py --seconds 60
+service_test(load load_test.py --seconds 15)
