@@ -61,5 +61,5 @@ class InstalledClient(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    BUILD, FLAGS = sys.argv[1], sys.argv[2:]
+    BUILD, FLAGS = sys.argv[1], [flag for flag in sys.argv[2:] if flag]
     unittest.main(argv=sys.argv[:1])

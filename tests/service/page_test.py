@@ -74,12 +74,11 @@ class Page(unittest.TestCase):
         canvas = self.driver.find_element(By.ID, "picture")
         ActionChains(self.driver).move_to_element_with_offset(canvas, -200, 0).click_and_hold().move_by_offset(
             150, 40).release().perform()
-        dragged = self.settled()
-        self.assertNotEqual(dragged, first)
+        self.wait(lambda: self.settled() != first)
         for name, value in (("elevation", 80), ("exposure", 1.5), ("extinction", -2.5), ("g", 0.3)):
             before = self.settled()
             self.slide(name, value)
-            self.assertNotEqual(self.settled(), before, name)
+            self.wait(lambda: self.settled() != before)
         errors = [entry for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"
                   and "favicon" not in entry["message"]]
         self.assertEqual(errors, [])
