@@ -112,7 +112,7 @@ void RenderService::make(Job job) {
         if (job.cancelled->load()) throw Cancelled{};
         if (!slot) throw RequestError("no_scene", "load a scene first");
         if (const auto* composite = std::get_if<Composite>(job.work.get()))
-            makeComposite(job, *composite, slot);
+            handOver(job, slot->composite(job, *composite));
         else
             makeFrame(job, std::get<FrameRequest>(*job.work), slot);
         return;
@@ -159,10 +159,6 @@ void RenderService::makeFrame(Job job, const FrameRequest& frame, const SlotPoin
         publish(*slot);
     }
     handOver(job, std::move(made));
-}
-
-void RenderService::makeComposite(const Job&, const Composite&, const SlotPointer&) {
-    throw RequestError("not_available", "this build has no fog to composite with");
 }
 
 void RenderService::handOver(const Job& job, SceneSlot::Frame frame) {

@@ -64,7 +64,6 @@ class RenderService {
     void renderLoop();
     void make(Job job);
     void makeFrame(Job job, const FrameRequest& frame, const SlotPointer& slot);
-    void makeComposite(const Job& job, const Composite& composite, const SlotPointer& slot);
     void handOver(const Job& job, SceneSlot::Frame frame);
     void finish(const Job& job);
     void fail(const Job& job, const std::string& code, const std::string& text, const std::string& where = {});

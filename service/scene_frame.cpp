@@ -199,6 +199,35 @@ json SceneSlot::shownDescription() const {
     return result;
 }
 
+SceneSlot::Frame SceneSlot::composite(const Job& job, const Composite& composite) {
+    const auto start = Clock::now();
+    ViewRequest request;
+    request.camera = composite.camera;
+    request.width = composite.width;
+    request.height = composite.height;
+    FrameRequest frame;
+    frame.views = {request};
+    LayeredImage picture;
+    picture.width = composite.width;
+    picture.height = composite.height;
+    picture.layer("A", 1.0F);
+    const char* names[3] = {"R", "G", "B"};
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        std::vector<float>& layer = picture.layer(names[channel]);
+        for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = composite.color[3 * i + channel];
+    }
+    picture = renderer_->throughFog(viewsOf(frame).front(), std::move(picture), composite.depth);
+    std::vector<std::byte> payload;
+    const EncodeOptions options{
+        {Product::color}, composite.encoding, composite.quality, composite.exposure.value_or(scene_.image.exposure)};
+    json body{{"scene", scene_.source}, {"encoding", encodingName(composite.encoding)}};
+    body["views"] = json::array({appendView(picture, options, payload)});
+    body["hash"] = "sha256:" + sha256Hex(payload);
+    const double total = milliseconds(Clock::now() - job.arrived);
+    body["milliseconds"] = {{"waited", milliseconds(start - job.arrived)}, {"total", total}};
+    return {{replyTo(MessageType::composite), job.id, body.dump(), std::move(payload)}, false, false, total / 1e3};
+}
+
 SceneSlot::Frame SceneSlot::draw(const Job& job, const FrameRequest& frame) {
     const auto start = Clock::now();
     const std::vector<View> views = viewsOf(frame);

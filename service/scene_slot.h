@@ -61,6 +61,8 @@ class SceneSlot {
         bool reduced = false, late = false;
         double seconds = 0.0;  ///< since the request came
     };
+    /// The client's picture through the fog of the scene. Errors: RequestError.
+    Frame composite(const Job& job, const Composite& composite);
     /// Errors: Cancelled, RequestError, TooSlow.
     Frame draw(const Job& job, const FrameRequest& frame);
 

@@ -83,6 +83,9 @@ class Renderer {
     Preview preview();
     /// The same for any view: all views share the photons.
     LayeredImage draw(const View& view);
+    /// A picture of another renderer (layers R, G and B) as seen through the scene's fog; as it is where there is none.
+    /// `depth` as the scene's `fog.depth` says, rows from the top. Both have the size of the view.
+    LayeredImage throughFog(const View& view, LayeredImage picture, std::vector<float> depth);
     /// The view of the scene.
     View sceneView() const;
     /// Rays along each side of a pixel of the view.

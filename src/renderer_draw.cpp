@@ -18,21 +18,6 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The part of a picture.
-LayeredImage cropped(const LayeredImage& whole, const Tile& tile) {
-    LayeredImage part;
-    part.width = tile.width;
-    part.height = tile.height;
-    for (const auto& [name, values] : whole.layers) {
-        auto& target = part.layer(name);
-        for (int y = 0; y < tile.height; ++y) {
-            const auto from = values.begin() + static_cast<std::ptrdiff_t>(tile.y + y) * whole.width + tile.x;
-            std::copy_n(from, tile.width, target.begin() + static_cast<std::ptrdiff_t>(y) * tile.width);
-        }
-    }
-    return part;
-}
-
 }  // namespace
 
 void Renderer::State::addTimes(const std::vector<gpu::PassTime>& times) {

@@ -4,6 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 
+#include "base/image.h"
 #include "draw/camera.h"
 #include "scene/scene.h"
 
@@ -42,5 +43,8 @@ Camera makeCamera(const View& view, const Bounds& cloud);
 
 /// The part that is drawn: the tile, or everything. Errors: InputError for a tile that is not within the picture.
 Tile drawnTile(const View& view);
+
+/// A part of a picture, all layers.
+LayeredImage cropped(const LayeredImage& image, const Tile& tile);
 
 }  // namespace lumulus

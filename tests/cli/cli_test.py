@@ -89,14 +89,14 @@ class CliTest(unittest.TestCase):
 
 class Usage(CliTest):
     def test_help_shows_an_example(self):
-        for command in ("render", "cloud", "info", "composite"):
+        for command in ("render", "cloud", "info", "composite", "serve", "fetch"):
             result = self.run_lumulus(command, "--help")
             self.assertEqual((result.returncode, result.stderr), (0, ""))
             self.assertIn(f"Example:\n  lumulus {command}", result.stdout)
         self.assertIn("render", self.run_lumulus("--help").stdout)
 
     def test_help_of_commands_that_are_not_there(self):
-        for arguments in (["denoise", "--help"], ["serve", "-h"], ["--nonsense", "--help"], ["serve", "--version"]):
+        for arguments in (["denoise", "--help"], ["simulate", "-h"], ["--nonsense", "--help"], ["simulate", "--version"]):
             self.rejected(*arguments, says="unknown command")
         self.assertIn("--scene-format", self.run_lumulus("info", "--help").stdout)
 

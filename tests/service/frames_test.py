@@ -200,6 +200,15 @@ class Behaviour(ServiceTest):
             client.start_stream(stream, when="change", width=32, height=32)
             self.assertEqual(client.next_frame(stream).info["views"][0]["width"], 32)
 
+    def test_composite_is_seen_through_the_fog(self):
+        color, depth = numpy.ones((30, 40, 3), "f"), numpy.full((30, 40), 100.0, "f")
+        fog = 'cloud = []\n[[fog.media]]\nkind = "homogeneous"\nabsorption = 0.01\nscattering = 0.0\n'
+        with self.server.client() as client:
+            client.load_scene(toml=fog)
+            frame = client.composite(color.tobytes(), depth.tobytes(), 40, 30, encoding="float")
+            self.assertTrue(frame.verify())
+            numpy.testing.assert_allclose(frame.values()[..., :3], numpy.exp(-1.0), rtol=0.01)
+
     def test_unix_socket_with_its_permissions(self):
         server = Server(LUMULUS, listen='unix = "frames.sock"\nunix_mode = "0600"')
         try:
