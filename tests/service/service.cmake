@@ -23,3 +23,5 @@ service_test(tls tls_test.py)
 service_test(client client_test.py ${CMAKE_BINARY_DIR} $<$<BOOL:${LUMULUS_SANITIZE}>:-fsanitize=address,undefined>)
 # 60 s: /usr/bin/python3 tests/service/load_test.py --seconds 60
 service_test(load load_test.py --seconds 15)
+# What waits for deadlines, shares and a browser has the machine for itself.
+set_tests_properties(service.load service.frames.Behaviour service.page.Page service.page.Phone PROPERTIES RUN_SERIAL TRUE)
