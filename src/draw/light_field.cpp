@@ -21,7 +21,7 @@ namespace spirv {
 constexpr double photonsInCell = 16.0, fewestAlong = 32.0;
 /// Photons that a cell is taken to have met, as many as its collectors have there on average, beside those that were
 /// counted: what holds the noise of cells that few meet (docs/error-time.md).
-constexpr double priorPhotons = 5.0;
+constexpr double priorPhotons = 10.0;
 /// 64 MiB each for the cells and for the smoothed field.
 constexpr std::uint64_t maxCells = 1ULL << 22U;
 
