@@ -10,7 +10,7 @@ struct MapSize {
     int bands = 5;
     int generations = 20;  ///< slots of the ring
     bool keepRing = false;
-    bool keepHalves = false;  ///< even and odd generations apart
+    bool keepHalves = false;     ///< even and odd generations apart
     std::uint64_t deposits = 0;  ///< cells
 };
 

@@ -37,7 +37,8 @@ struct Options {
     /// noisy a picture of all is. Not with a ring.
     bool keepHalves = false;
     std::uint64_t memoryBudget = std::uint64_t{1} << 30U;  ///< bytes for all coefficients
-    Check check = stopIfInterrupted;  ///< asked between the rounds of a generation; a map in which it threw is of no more use
+    Check check =
+        stopIfInterrupted;  ///< asked between the rounds of a generation; a map in which it threw is of no more use
 };
 
 /// Sums over all generations traced.
