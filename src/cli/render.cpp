@@ -98,7 +98,7 @@ void tellReached(const RenderOptions& options, const Statistics& statistics, con
         logWarning(fmt::format("{:g} s were too short for this scene: it took {:.2f} s with {} photons",
                                *options.seconds, seconds, statistics.photons));
     if (options.targetError && *options.targetError < reached.biasEstimate)
-        logWarning(fmt::format("the bias of relMSE {:.2g} is larger than the target {:g}, and photons hardly lower it",
+        logWarning(fmt::format("the bias of relMSE {:.2g} is larger than the target {:g}, and falls slowly with photons",
                                reached.biasEstimate, *options.targetError));
 }
 

@@ -29,10 +29,10 @@ class Progressive(CliTest):
         return read_exr(self.out / "a.exr")[2], json.loads(result.stdout), result.stderr, time.monotonic() - begin
 
     def test_stops_at_the_target_error_and_says_so(self):
-        _, stats, said, _ = self.progressive("--target-error", "0.05", quiet=False)
+        _, stats, said, _ = self.progressive("--target-error", "0.2", quiet=False)  # above the bias
         reached = stats["progressive"]
         self.assertEqual(reached["stop"], "target-error")
-        self.assertLessEqual(reached["noise"], 0.05)
+        self.assertLessEqual(reached["noise"], 0.2)
         self.assertGreater(reached["noise"], 0.0)
         self.assertGreater(reached["bias_estimate"], 0.0)
         self.assertEqual(reached["photons"], EACH * reached["generations"])
