@@ -1,24 +1,18 @@
 #include "renderer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/stopwatch.h"
 #include "renderer_state.h"
 #include "volume/load.h"
 
 namespace lumulus {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 constexpr double degrees = 3.14159265358979323846 / 180.0;
 
@@ -84,16 +78,16 @@ Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
         makeCamera(scene.camera, scene.image, Bounds{});  // what is wrong with it shows before the work
         return;
     }
-    auto start = Clock::now();
+    const Stopwatch loading;
     CloudVolume loaded = loadCloudVolume(scene.clouds[0], scene.preparation.memoryBudget, s.report);
     s.statistics.warnings = std::move(loaded.warnings);
-    s.statistics.loadSeconds = secondsSince(start);
+    s.statistics.loadSeconds = loading.seconds();
     s.bounds = boundsOf(loaded.volume);
     makeCamera(scene.camera, scene.image, s.bounds);
     s.dimSun();
     if (loaded.volume.empty()) return;
 
-    start = Clock::now();
+    const Stopwatch preparing;
     s.report("preparing the cloud", 0, 1);
     s.makeMedium(scene.clouds[0], static_cast<double>(loaded.volume.maximum));
     if (s.medium.extinction > 0.0) {
@@ -104,7 +98,7 @@ Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
         s.prepareDrawing();
     }
     s.report("preparing the cloud", 1, 1);
-    s.statistics.prepareSeconds = secondsSince(start);
+    s.statistics.prepareSeconds = preparing.seconds();
 }
 
 Renderer::~Renderer() = default;
@@ -115,10 +109,10 @@ int Renderer::generationsWanted() const {
 
 void Renderer::traceGeneration() {
     State& s = *state_;
-    const auto start = Clock::now();
+    const Stopwatch watch;
     if (s.photons) s.photons->trace(s.sunlight, s.scene.sky);
     ++s.sinceChange;
-    s.statistics.traceSeconds += secondsSince(start);
+    s.statistics.traceSeconds += watch.seconds();
 }
 
 void Renderer::State::prepareDrawing() {

@@ -1,24 +1,14 @@
 // Drawing of a view.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "base/stopwatch.h"
 #include "draw/sky.h"
 #include "draw/view.h"
 #include "fog/frame.h"
 #include "renderer_state.h"
 
 namespace lumulus {
-
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
 
 void Renderer::State::addTimes(const std::vector<gpu::PassTime>& times) {
     for (const gpu::PassTime& pass : times) {
@@ -182,7 +172,7 @@ void Renderer::State::showView(const View& view) {
 
 LayeredImage Renderer::draw(const View& view) {
     State& s = *state_;
-    const auto start = Clock::now();
+    const Stopwatch watch;
     s.showView(view);
     s.raysAcross = raysAcross(view);
     const Tile wanted = s.tile;
@@ -201,7 +191,7 @@ LayeredImage Renderer::draw(const View& view) {
         s.applyFog(image);
         if (!(wanted == s.tile)) image = cropped(image, wanted);
     }
-    s.statistics.drawSeconds += secondsSince(start);
+    s.statistics.drawSeconds += watch.seconds();
     return image;
 }
 
@@ -224,11 +214,11 @@ Preview Renderer::preview() {
     preview.evenGenerations = s.photons->halves().even;
     preview.oddGenerations = s.photons->halves().odd;
     for (const photon::Part part : {photon::Part::even, photon::Part::odd}) {
-        auto start = Clock::now();
+        const Stopwatch watch;
         LayeredImage& image = part == photon::Part::even ? preview.even : preview.odd;
         image = draw::skyImage(s.camera, s.tile, s.scene.sun, s.scene.sky);
         s.drawLight(part);
-        const double whole = secondsSince(start);
+        const double whole = watch.seconds();
         s.statistics.passes.clear();
         s.drawBands(image, bands, noReport);
         // the first of the two also pays for what is made once

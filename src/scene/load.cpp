@@ -23,8 +23,8 @@ std::string readSceneText(const std::filesystem::path& path) {
     }
     std::ifstream file(path, std::ios::binary);
     if (!file) {
-        throw InputError("cannot read the scene: " + std::generic_category().message(errno), path.string(),
-                         "give a scene file that exists and may be read");
+        throw InputError("cannot read the file: " + std::generic_category().message(errno), path.string(),
+                         "give a file that exists and may be read");
     }
     std::string text(maximumBytes + 1, '\0');
     file.read(text.data(), static_cast<std::streamsize>(text.size()));

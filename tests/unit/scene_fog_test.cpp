@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "scene/load.h"
+#include "support/scene_message.h"
 
 namespace lumulus::scene {
 namespace {
@@ -13,14 +14,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-std::string messageOf(const std::string& toml, const std::vector<std::string>& overrides = {}) {
-    try {
-        parseScene(toml, "x.toml", overrides);
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "no error";
-}
+using test::sceneMessage;
 
 TEST(SceneFog, MediaAddUpInTheOrderOfTheFile) {
     const Fog fog = parseScene(R"(
@@ -61,10 +55,10 @@ TEST(SceneFog, OverridesReachOneMediumAndMayAddTheNext) {
     ASSERT_EQ(fog.media.size(), 2U);
     EXPECT_EQ(fog.media[0].g, 0.5);
     EXPECT_DOUBLE_EQ(fog.media[1].scattering.x, 0.03912);
-    EXPECT_THAT(messageOf("", {"fog.media.1.g=0"}), HasSubstr("there is no fog.media.0"));
-    EXPECT_THAT(messageOf("", {"fog.media.g=0"}), HasSubstr("write fog.media.0.g"));
-    EXPECT_THAT(messageOf("", {"fog.media.x.g=0"}), HasSubstr("write fog.media.0.g"));
-    EXPECT_THAT(messageOf("", {"fog.media.99999999999.g=0"}), HasSubstr("at most 256 media"));
+    EXPECT_THAT(sceneMessage("", {"fog.media.1.g=0"}), HasSubstr("there is no fog.media.0"));
+    EXPECT_THAT(sceneMessage("", {"fog.media.g=0"}), HasSubstr("write fog.media.0.g"));
+    EXPECT_THAT(sceneMessage("", {"fog.media.x.g=0"}), HasSubstr("write fog.media.0.g"));
+    EXPECT_THAT(sceneMessage("", {"fog.media.99999999999.g=0"}), HasSubstr("at most 256 media"));
 }
 
 TEST(SceneFog, AnOverriddenVisibilityReplacesTheFilesCoefficients) {
@@ -76,26 +70,26 @@ TEST(SceneFog, AnOverriddenVisibilityReplacesTheFilesCoefficients) {
 
 TEST(SceneFog, VisibilityAndCoefficientsExcludeEachOther) {
     for (const char* key : {"scattering", "absorption"}) {
-        EXPECT_THAT(messageOf(std::string("[[fog.media]]\n[[fog.media]]\nvisibility = 10\n") + key + " = 1"),
+        EXPECT_THAT(sceneMessage(std::string("[[fog.media]]\n[[fog.media]]\nvisibility = 10\n") + key + " = 1"),
                     AllOf(HasSubstr("exclude each other"), HasSubstr(std::string("x.toml:4, fog.media.1.") + key)));
     }
 }
 
 TEST(SceneFog, KeysThatTheKindDoesNotHaveAreRefused) {
-    EXPECT_THAT(messageOf("[[fog.media]]\nfalloff = 1"), HasSubstr("falloff has no effect"));
-    EXPECT_THAT(messageOf("[[fog.media]]\nkind = \"exponential\"\nradius = 1"), HasSubstr("radius has no effect"));
-    EXPECT_THAT(messageOf("[[fog.media]]\nkind = \"sphere\"\nradius = 1", {"fog.media.0.kind=homogeneous"}),
+    EXPECT_THAT(sceneMessage("[[fog.media]]\nfalloff = 1"), HasSubstr("falloff has no effect"));
+    EXPECT_THAT(sceneMessage("[[fog.media]]\nkind = \"exponential\"\nradius = 1"), HasSubstr("radius has no effect"));
+    EXPECT_THAT(sceneMessage("[[fog.media]]\nkind = \"sphere\"\nradius = 1", {"fog.media.0.kind=homogeneous"}),
                 HasSubstr("no error"));
-    EXPECT_THAT(messageOf("[[fog.media]]\nkind = \"exponential\"\ndirection = [0, 0, 0]"),
+    EXPECT_THAT(sceneMessage("[[fog.media]]\nkind = \"exponential\"\ndirection = [0, 0, 0]"),
                 HasSubstr("direction must have a length (x.toml:3"));
 }
 
 TEST(SceneFog, WhatCannotBeFilteredIsRefused) {
-    EXPECT_THAT(messageOf("[fog]\nfilter_size = 3"), HasSubstr("filter_size must be 2, 4 or 6, got 3 (x.toml:2"));
-    EXPECT_THAT(messageOf("[fog]\nnear = 5\nfar = 5"), HasSubstr("near and far are the same"));
-    EXPECT_THAT(messageOf("[fog.media]\ng = 0.5"), HasSubstr("write [[fog.media]] with two brackets"));
-    EXPECT_THAT(messageOf("[[fog.media]]\nvisibility = 0"), HasSubstr("visibility must be above 0"));
-    EXPECT_THAT(messageOf("[[fog.media]]\ng = 1"), HasSubstr("g must be above -1, below 1"));
+    EXPECT_THAT(sceneMessage("[fog]\nfilter_size = 3"), HasSubstr("filter_size must be 2, 4 or 6, got 3 (x.toml:2"));
+    EXPECT_THAT(sceneMessage("[fog]\nnear = 5\nfar = 5"), HasSubstr("near and far are the same"));
+    EXPECT_THAT(sceneMessage("[fog.media]\ng = 0.5"), HasSubstr("write [[fog.media]] with two brackets"));
+    EXPECT_THAT(sceneMessage("[[fog.media]]\nvisibility = 0"), HasSubstr("visibility must be above 0"));
+    EXPECT_THAT(sceneMessage("[[fog.media]]\ng = 1"), HasSubstr("g must be above -1, below 1"));
 }
 
 }  // namespace

@@ -6,20 +6,14 @@
 
 #include "base/error.h"
 #include "scene/load.h"
+#include "support/scene_message.h"
 
 namespace lumulus::scene {
 namespace {
 
 using testing::HasSubstr;
 
-std::string messageOf(const std::string& toml, const std::vector<std::string>& overrides = {}) {
-    try {
-        parseScene(toml, "x.toml", overrides);
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "no error";
-}
+using test::sceneMessage;
 
 TEST(SceneSurface, AllKeysAreRead) {
     const std::vector<Surface> surfaces = parseScene(R"(
@@ -63,16 +57,17 @@ TEST(SceneSurface, OverridesReachOne) {
 }
 
 TEST(SceneSurface, BadInputIsNamed) {
-    EXPECT_THAT(messageOf("[[surface]]\nradius = 1"), HasSubstr("radius has no effect"));
-    EXPECT_THAT(messageOf("[[surface]]\nkind = \"sphere\"\nnormal = [0, 1, 0]"), HasSubstr("normal has no effect"));
-    EXPECT_EQ(messageOf("[[surface]]\nradius = 1\nkind = \"disc\"", {"surface.0.kind=plane"}), "no error");
-    EXPECT_THAT(messageOf("[[surface]]\nnormal = [0, 0, 0]"), HasSubstr("normal must have a length (x.toml:2"));
-    EXPECT_THAT(messageOf("[[surface]]\nalbedo = 1.1"), HasSubstr("x.toml:2, surface.0.albedo"));
-    EXPECT_THAT(messageOf("[[surface]]\nkind = \"box\""), HasSubstr("surface.0.kind"));
-    EXPECT_THAT(messageOf("[surface]\nalbedo = 1"), HasSubstr("[[surface]]"));
-    EXPECT_THAT(messageOf("", {"surface.albedo=1"}), HasSubstr("write surface.0.albedo"));
-    EXPECT_THAT(messageOf("[fog]\ninscattering = 1"), HasSubstr("inscattering must be true or false, got an integer"));
-    EXPECT_THAT(messageOf("[fog]\ninscattering = \"no\""), HasSubstr("true or false"));
+    EXPECT_THAT(sceneMessage("[[surface]]\nradius = 1"), HasSubstr("radius has no effect"));
+    EXPECT_THAT(sceneMessage("[[surface]]\nkind = \"sphere\"\nnormal = [0, 1, 0]"), HasSubstr("normal has no effect"));
+    EXPECT_EQ(sceneMessage("[[surface]]\nradius = 1\nkind = \"disc\"", {"surface.0.kind=plane"}), "no error");
+    EXPECT_THAT(sceneMessage("[[surface]]\nnormal = [0, 0, 0]"), HasSubstr("normal must have a length (x.toml:2"));
+    EXPECT_THAT(sceneMessage("[[surface]]\nalbedo = 1.1"), HasSubstr("x.toml:2, surface.0.albedo"));
+    EXPECT_THAT(sceneMessage("[[surface]]\nkind = \"box\""), HasSubstr("surface.0.kind"));
+    EXPECT_THAT(sceneMessage("[surface]\nalbedo = 1"), HasSubstr("[[surface]]"));
+    EXPECT_THAT(sceneMessage("", {"surface.albedo=1"}), HasSubstr("write surface.0.albedo"));
+    EXPECT_THAT(sceneMessage("[fog]\ninscattering = 1"),
+                HasSubstr("inscattering must be true or false, got an integer"));
+    EXPECT_THAT(sceneMessage("[fog]\ninscattering = \"no\""), HasSubstr("true or false"));
 }
 
 }  // namespace
