@@ -119,7 +119,7 @@ void Renderer::State::prepareDrawing() {
     const draw::DrawFeatures features{!medium.tables.oneTurnH.empty(), scatters() && hasSun(), photons.has_value(),
                                       medium.albedo == glm::dvec3(medium.albedo.x)};
     if (features.sun) sunDepth.emplace(context, *cloud);
-    phase.emplace(context, medium.tables);
+    phase.emplace(context, medium.tables, features.grey);
     if (scene.draw.mode == scene::DrawMode::billboards) {
         billboards.emplace(context, *cloud, features);
         if (features.sun) collectorSun.emplace(context, *cloud);

@@ -75,25 +75,53 @@ void Renderer::State::recordLight(photon::Part part) {
     }
 }
 
-void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params,
-                               const draw::Band& band) {
+shared::DrawParams Renderer::State::drawParams() const {
     shared::DrawParams values{};
     values.view = draw::viewParams(camera);
     values.light = draw::lightParams(sunlight, scene.sky, medium.albedo, medium.tables);
     values.light.sunDisc = draw::lightParams(scene.sun, scene.sky, medium.albedo, medium.tables).sunDisc;
     values.field = fieldParams();
-    values.firstColumn = tile.x;
-    values.columns = tile.width;
-    values.firstRow = tile.y + band.first;
-    values.rows = band.rows;
+    values.lattice =
+        draw::latticeOf(camera, tile, spacing, scene.draw.tolerance, static_cast<double>(values.field.voxelLength));
     values.samples = raysAcross;
     values.tilesAcross = billboards ? billboards->tilesAcross() : 0;
-    params.mapped<shared::DrawParams>()[0] = values;
-    commands.begin();
+    return values;
+}
+
+void Renderer::State::recordPixels(const draw::FrameInputs& inputs, const shared::DrawPush& push) {
     if (billboards)
-        billboards->record(commands, inputs, values);
+        billboards->record(commands, inputs, push);
     else
-        march->record(commands, inputs, values);
+        march->record(commands, inputs, push);
+}
+
+/// Lattice points that are not drawn yet, what can be interpolated between them, and the rest.
+void Renderer::State::recordBlocks(const draw::FrameInputs& inputs, const shared::LatticeParams& lattice,
+                                   const draw::Band& band, const shared::DrawPush& all) {
+    const draw::Band needed = draw::latticeRows(lattice, tile, band);
+    const int first = std::max(needed.first, latticeRowsDrawn), end = needed.first + needed.rows;
+    if (end > first) {
+        const draw::FrameInputs points{inputs.params,           inputs.phase, inputs.lightField, inputs.sunDepth,
+                                       interpolation->points(), inputs.blocks};
+        recordPixels(points,
+                     {shared::DRAW_LATTICE, lattice.first + glm::ivec2(0, first), {lattice.size.x, end - first}});
+        commands.barrier("lattice points");
+        latticeRowsDrawn = end;
+    }
+    interpolation->record(commands, inputs, all);
+    commands.barrier("blocks");
+    recordPixels(inputs, {shared::DRAW_BLOCKS, all.first, all.count});
+}
+
+void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inputs,
+                               const shared::LatticeParams& lattice, const draw::Band& band) {
+    const shared::DrawPush all{shared::DRAW_PIXELS, {tile.x, tile.y + band.first}, {tile.width, band.rows}};
+    if (lattice.spacing > 1) interpolation->clearBlocks();
+    commands.begin();
+    if (lattice.spacing > 1)
+        recordBlocks(inputs, lattice, band, all);
+    else
+        recordPixels(inputs, all);
     commands.submit();
     commands.wait();
     addTimes(commands.times());
@@ -121,14 +149,26 @@ void Renderer::State::drawBands(LayeredImage& image, const std::vector<draw::Ban
                              static_cast<std::uint64_t>(draw::bandRows(tile)) * static_cast<std::uint64_t>(tile.width) *
                                  sizeof(shared::Pixel),
                              gpu::Memory::host);
-    // Stands for fields that the scene does not have: the shaders never read it, but every binding must be there.
+    // Stand for what the scene does not have: the shaders never read them, but every binding must be there.
     const gpu::Image none(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT);
-    const draw::FrameInputs inputs{params, *phase, lightField ? lightField->image() : none,
-                                   sunDepth ? sunDepth->image() : none, pixels};
+    const gpu::Buffer noBlocks = draw::noBlocks(context);
+    params.mapped<shared::DrawParams>()[0] = drawParams();
+    const shared::LatticeParams lattice = params.mapped<shared::DrawParams>()[0].lattice;
+    if (spacing > 1) {
+        if (!interpolation) interpolation.emplace(context);
+        interpolation->prepare(lattice);
+        latticeRowsDrawn = 0;
+    }
+    const draw::FrameInputs inputs{params,
+                                   *phase,
+                                   lightField ? lightField->image() : none,
+                                   sunDepth ? sunDepth->image() : none,
+                                   pixels,
+                                   spacing > 1 ? interpolation->blocks() : noBlocks};
     told("drawing", 0, bands.size());
     for (std::size_t done = 0; done < bands.size(); ++done) {
         check();
-        drawBand(image, inputs, params, bands[done]);
+        drawBand(image, inputs, lattice, bands[done]);
         told("drawing", done + 1, bands.size());
     }
     statistics.gpuBytes = context.allocatedBytes();
@@ -156,9 +196,21 @@ View Renderer::sceneView() const {
 int Renderer::raysAcross(const View& view) const {
     const State& s = *state_;
     if (!s.cloud) return 1;
-    const glm::dvec3 centre = s.cloud->toWorld.point(0.5 * glm::dvec3(s.cloud->size));
-    return std::min(view.mostRays,
-                    draw::raysAcross(makeCamera(view, s.bounds), centre, std::cbrt(s.cloud->voxelVolume)));
+    const double pixel = draw::pixelLength(makeCamera(view, s.bounds), s.middle());
+    return std::min(view.mostRays, draw::raysAcross(std::cbrt(s.cloud->voxelVolume) / pixel));
+}
+
+glm::dvec3 Renderer::State::middle() const {
+    return cloud->toWorld.point(0.5 * glm::dvec3(cloud->size));
+}
+
+/// Of the lattice, by the farthest voxels.
+int Renderer::State::latticeSpacing() const {
+    if (!cloud || scene.draw.tolerance <= 0.0) return 1;
+    const glm::dvec3 away = middle() - camera.position;
+    const double reach = 0.5 * glm::length(cloud->toWorld.linear * glm::dvec3(cloud->size));
+    const glm::dvec3 farthest = camera.position + (glm::length(away) + reach) * camera.axes[2];
+    return draw::latticeSpacing(std::cbrt(cloud->voxelVolume) / draw::pixelLength(camera, farthest));
 }
 
 const Bounds& Renderer::bounds() const {
@@ -175,9 +227,11 @@ LayeredImage Renderer::draw(const View& view) {
     const Stopwatch watch;
     s.showView(view);
     s.raysAcross = raysAcross(view);
+    s.spacing = s.latticeSpacing();
     const Tile wanted = s.tile;
     if (s.fog) s.tile = {0, 0, view.image.width, view.image.height};  // its filter sees beyond the tile
-    LayeredImage image = draw::skyImage(s.camera, s.tile, s.scene.sun, s.scene.sky);
+    LayeredImage image =
+        s.march || s.billboards ? draw::emptyFrame(s.tile) : draw::skyImage(s.camera, s.tile, s.scene.sun, s.scene.sky);
     s.statistics.passes.clear();
     if (s.photons) {
         s.photons->settle();
@@ -208,6 +262,7 @@ Preview Renderer::preview() {
     const View view = sceneView();
     s.showView(view);
     s.raysAcross = raysAcross(view);
+    s.spacing = 1;
     const std::vector<draw::Band> bands = draw::sampleBands(s.tile);
     for (const draw::Band& band : bands)
         for (int row = 0; row < band.rows; ++row) preview.rows.push_back(band.first + row);
@@ -216,13 +271,14 @@ Preview Renderer::preview() {
     for (const photon::Part part : {photon::Part::even, photon::Part::odd}) {
         const Stopwatch watch;
         LayeredImage& image = part == photon::Part::even ? preview.even : preview.odd;
-        image = draw::skyImage(s.camera, s.tile, s.scene.sun, s.scene.sky);
+        image = draw::emptyFrame(s.tile);
         s.drawLight(part);
         const double whole = watch.seconds();
         s.statistics.passes.clear();
         s.drawBands(image, bands, noReport);
         // the first of the two also pays for what is made once
-        preview.forecastSeconds = whole + s.passSeconds() * s.camera.height / static_cast<double>(preview.rows.size());
+        preview.forecastSeconds = whole + s.passSeconds() * s.camera.height / static_cast<double>(preview.rows.size()) *
+                                              draw::drawnShare(s.latticeSpacing());
     }
     return preview;
 }

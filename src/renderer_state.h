@@ -9,6 +9,7 @@
 #include "draw/billboards.h"
 #include "draw/camera.h"
 #include "draw/collector_sun.h"
+#include "draw/lattice.h"
 #include "draw/light_field.h"
 #include "draw/march.h"
 #include "draw/sun_depth.h"
@@ -44,6 +45,8 @@ struct Renderer::State {
     Camera camera;  // of the picture that is drawn, as is its part
     Tile tile;
     int raysAcross = 1;
+    int spacing = 1;  // of the points that it is drawn at; 1: every pixel
+    int latticeRowsDrawn = 0;
     glm::dvec3 offset{0.0};
 
     // What follows exists only where the scene needs it.
@@ -57,6 +60,7 @@ struct Renderer::State {
     std::optional<draw::LightField> lightField;
     std::optional<draw::Billboards> billboards;
     std::optional<draw::March> march;
+    std::optional<draw::Interpolation> interpolation;
     std::optional<fog::Fog> fog;
     scene::Sun sunlight = scene.sun;  ///< that reaches the cloud through the fog
 
@@ -80,7 +84,14 @@ struct Renderer::State {
     void recordLight(photon::Part part);
     void drawLight(photon::Part part);
     void drawBands(LayeredImage& image, const std::vector<draw::Band>& bands, const Report& told);
-    void drawBand(LayeredImage& image, const draw::FrameInputs& inputs, gpu::Buffer& params, const draw::Band& band);
+    void drawBand(LayeredImage& image, const draw::FrameInputs& inputs, const shared::LatticeParams& lattice,
+                  const draw::Band& band);
+    void recordPixels(const draw::FrameInputs& inputs, const shared::DrawPush& push);
+    void recordBlocks(const draw::FrameInputs& inputs, const shared::LatticeParams& lattice, const draw::Band& band,
+                      const shared::DrawPush& all);
+    shared::DrawParams drawParams() const;
+    glm::dvec3 middle() const;
+    int latticeSpacing() const;
     void addTimes(const std::vector<gpu::PassTime>& times);
     double passSeconds() const;
     void applyFog(LayeredImage& image);

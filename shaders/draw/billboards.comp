@@ -18,13 +18,25 @@ layout(binding = 3) uniform sampler2D oneTurnK;
 layout(binding = 4) uniform sampler3D lightField;
 layout(binding = 5) uniform sampler3D sunDepth;
 layout(binding = 6, scalar) writeonly buffer Pixels { Pixel pixels[]; };
-layout(binding = 7, scalar) readonly buffer Billboards { Billboard billboards[]; };
+// As images: their loads are by vectors on lavapipe, those from buffers by lanes.
+layout(binding = 7) uniform sampler2D billboards;  // two texels each
 layout(binding = 8, scalar) readonly buffer TileOffsets { uint tileOffsets[]; };
-layout(binding = 9, scalar) readonly buffer TileLists { uint tileLists[]; };
+layout(binding = 9) uniform usampler2D tileLists;
+layout(binding = 10, scalar) readonly buffer Blocks { uvec3 blockGroups; uint blockCount; uint blocks[]; };
+layout(push_constant, scalar) uniform Push { DrawPush push; };
 
 // Held in registers: a load from a buffer costs a loop over the lanes on lavapipe, for every billboard.
 DrawParams params;
+#include "lib/drawn_pixel.glsl"
 #include "lib/stretch.glsl"
+
+Billboard billboardAt(uint entry) {
+    const int number = int(texelFetch(tileLists, ivec2(entry % LIST_WIDTH, entry / LIST_WIDTH), 0).r);
+    const ivec2 place = ivec2(2 * number % LIST_WIDTH, 2 * number / LIST_WIDTH);
+    const vec4 sphere = texelFetch(billboards, place, 0);
+    const vec4 rest = texelFetch(billboards, place + ivec2(1, 0), 0);
+    return Billboard(sphere.xyz, sphere.w, rest.x, rest.y);
+}
 
 void addBillboard(inout RayLight ray, SunView sun, Billboard billboard, vec3 origin, vec3 direction) {
     const vec3 centre = billboard.centre - origin;
@@ -43,8 +55,9 @@ void addBillboard(inout RayLight ray, SunView sun, Billboard billboard, vec3 ori
 
 void main() {
     params = storedParams;
-    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(params.firstColumn, params.firstRow);
-    if (pixel.x >= params.firstColumn + params.columns || pixel.y >= params.firstRow + params.rows) return;
+    ivec2 pixel;
+    int slot;
+    if (!drawnPixel(pixel, slot)) return;
     const uint tile = uint((pixel.y / TILE_EDGE) * params.tilesAcross + pixel.x / TILE_EDGE);
     const uint last = tileOffsets[tile + 1u];
     const float opaque = opaqueDepth();
@@ -56,9 +69,8 @@ void main() {
         const SunView sun = sunView(params.light, direction);
         RayLight ray = emptyRay();
         for (uint i = tileOffsets[tile]; i < last && ray.depth < opaque; ++i)
-            addBillboard(ray, sun, billboards[tileLists[i]], origin, direction);
+            addBillboard(ray, sun, billboardAt(i), origin, direction);
         addRay(sum, ray, direction);
     }
-    pixels[(pixel.y - params.firstRow) * params.columns + pixel.x - params.firstColumn] =
-        finishedPixel(sum, params.samples * params.samples);
+    pixels[slot] = finishedPixel(sum, params.samples * params.samples);
 }

@@ -21,41 +21,63 @@ layout(binding = 4) uniform sampler3D lightField;
 layout(binding = 5) uniform sampler3D sunDepth;
 layout(binding = 6, scalar) writeonly buffer Pixels { Pixel pixels[]; };
 layout(binding = 7) uniform sampler3D density;
-layout(binding = 8, scalar) readonly buffer Majorants { float majorants[]; };
+layout(binding = 8) uniform sampler3D majorants;  // normalised; negative: distances in empty space
+layout(binding = 9, scalar) readonly buffer Blocks { uvec3 blockGroups; uint blockCount; uint blocks[]; };
+layout(push_constant, scalar) uniform Push { DrawPush push; };
 
 // Held in registers: a load from a buffer costs a loop over the lanes on lavapipe, in every step.
 DrawParams params;
+#include "lib/drawn_pixel.glsl"
 #include "lib/stretch.glsl"
 
-/// Optical thickness that a step may have at most, by the cell's majorant.
-const float STEP_THICKNESS = 0.25;
+/// Optical thickness that a first step may have at most, by the cell's majorant.
+const float STEP_THICKNESS = 0.5;
+/// Steps grow with the cube root of what the cloud before them hides, where an error of theirs weighs less, up to so much.
+const float GROWTH = 1.0 / 3.0, MOST_GROWTH = 4.0;
 
-/// Distances [m] between which the ray is in the volume; empty where first >= second.
-vec2 clipToVolume(vec3 start, vec3 velocity) {
-    const vec3 inverse = 1.0 / mix(velocity, vec3(1.0e-30), equal(velocity, vec3(0.0)));
-    const vec3 a = -start * inverse, b = (params.field.size - start) * inverse;
+/// A view ray in voxels: start + velocity · metres.
+struct ViewLine {
+    vec3 start, velocity;
+    vec3 inverse;  // of the velocity
+    bvec3 ahead;
+};
+
+ViewLine viewLine(vec3 start, vec3 velocity) {
+    const vec3 inverse = 1.0 / mix(velocity, vec3(1.0e-30), lessThan(abs(velocity), vec3(1.0e-30)));
+    return ViewLine(start, velocity, inverse, greaterThan(velocity, vec3(0.0)));
+}
+
+/// Distances [m] between which the line is in the volume; empty where first >= second.
+vec2 clipToVolume(ViewLine line) {
+    const vec3 a = -line.start * line.inverse, b = (params.field.size - line.start) * line.inverse;
     const vec3 low = min(a, b), high = max(a, b);
     return vec2(max(max(low.x, low.y), max(low.z, 0.0)), min(high.x, min(high.y, high.z)));
 }
 
-/// Distance at which the ray leaves its cell.
-float cellExit(vec3 start, vec3 velocity, ivec3 cell) {
-    const vec3 face = (vec3(cell) + vec3(greaterThan(velocity, vec3(0.0)))) * params.field.cellSize;
-    const vec3 distances = mix((face - start) / velocity, vec3(3.4e38), equal(velocity, vec3(0.0)));
-    return min(distances.x, min(distances.y, distances.z));
+/// From a cell over the `reach` next ones on all sides: the distance at which the line leaves them, and the cell there.
+float leaveCells(ViewLine line, inout ivec3 cell, int reach) {
+    const ivec3 beyond = cell + mix(ivec3(-reach - 1), ivec3(reach + 1), line.ahead);
+    const vec3 face = vec3(cell + mix(ivec3(-reach), ivec3(reach + 1), line.ahead)) * params.field.cellSize;
+    const vec3 distances = (face - line.start) * line.inverse;
+    const float leave = min(distances.x, min(distances.y, distances.z));
+    const vec3 end = floor((line.start + line.velocity * leave) / params.field.cellSize);
+    cell = mix(clamp(ivec3(end), cell - reach, cell + reach), beyond, equal(distances, vec3(leave)));
+    return leave;
 }
 
-void marchCell(inout RayLight ray, SunView sun, vec3 start, vec3 velocity, vec2 span, float majorant, float offset) {
+void marchCell(inout RayLight ray, SunView sun, ViewLine line, vec2 span, float majorant, float offset) {
     const float length_ = span.y - span.x;
-    const float steps = ceil(max(length_ / params.field.voxelLength, length_ * majorant / STEP_THICKNESS));
+    const float growth = min(exp(GROWTH * params.light.decay.x * ray.depth), MOST_GROWTH);
+    const float steps =
+        ceil(length_ * max(1.0 / params.field.voxelLength, majorant / STEP_THICKNESS) / growth);
     const float count = clamp(steps, 1.0, 512.0);
     const float dt = length_ / count;
     for (float i = 0.0; i < count; i += 1.0) {
         const float near = span.x + i * dt;
-        const float found = densityAt(density, start + velocity * (near + offset * dt), 1.0 / params.field.size);
+        const float found = densityAt(density, line.start + line.velocity * (near + offset * dt), 1.0 / params.field.size);
         if (found > 0.0) {
             const float thickness = found * params.field.extinction * dt;
-            const vec3 seen = start + velocity * (near + seenAt(thickness, offset) * dt);
+            const vec3 seen = line.start + line.velocity * (near + seenAt(thickness, offset) * dt);
             addStretch(ray, sun, near, near + dt, thickness, seen, SUN ? sunDepthAt(seen) : 0.0);
         }
     }
@@ -64,25 +86,19 @@ void marchCell(inout RayLight ray, SunView sun, vec3 start, vec3 velocity, vec2 
 /// The light of one ray; `offset` is where in its steps it looks.
 RayLight march(vec3 origin, vec3 direction, float offset) {
     const SunView sun = sunView(params.light, direction);
-    const vec3 start = params.field.eyeVoxel + params.field.worldToVoxel * origin;
-    const vec3 velocity = params.field.worldToVoxel * direction;
+    const ViewLine line = viewLine(params.field.eyeVoxel + params.field.worldToVoxel * origin,
+                                   params.field.worldToVoxel * direction);
     RayLight ray = emptyRay();
-    const vec2 inside = clipToVolume(start, velocity);
+    const vec2 inside = clipToVolume(line);
     const float opaque = opaqueDepth();
     const ivec3 last = params.field.cells - 1;
     float t = inside.x;
-    ivec3 cell = clamp(ivec3(floor((start + velocity * t) / params.field.cellSize)), ivec3(0), last);
+    ivec3 cell = clamp(ivec3(floor((line.start + line.velocity * t) / params.field.cellSize)), ivec3(0), last);
     for (int crossed = 0; crossed < 8192 && t < inside.y && ray.depth < opaque; ++crossed) {
-        const float leave = max(cellExit(start, velocity, cell), t);
-        const float majorant = params.field.extinction *
-                               majorants[(cell.z * params.field.cells.y + cell.y) * params.field.cells.x + cell.x];
+        const float majorant = texelFetch(majorants, cell, 0).r;
+        const float leave = max(leaveCells(line, cell, int(max(-majorant - 1.0, 0.0))), t);
         if (majorant > 0.0 && leave > t)
-            marchCell(ray, sun, start, velocity, vec2(t, min(leave, inside.y)), majorant, offset);
-        // on to the neighbour through the face that is met
-        const vec3 face = (vec3(cell) + vec3(greaterThan(velocity, vec3(0.0)))) * params.field.cellSize;
-        const vec3 distances = mix((face - start) / velocity, vec3(3.4e38), equal(velocity, vec3(0.0)));
-        const int axis = distances.x <= leave ? 0 : (distances.y <= leave ? 1 : 2);
-        cell[axis] += velocity[axis] > 0.0 ? 1 : -1;
+            marchCell(ray, sun, line, vec2(t, min(leave, inside.y)), majorant * params.field.extinction, offset);
         if (any(lessThan(cell, ivec3(0))) || any(greaterThan(cell, last))) break;
         t = leave;
     }
@@ -91,8 +107,9 @@ RayLight march(vec3 origin, vec3 direction, float offset) {
 
 void main() {
     params = storedParams;
-    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(params.firstColumn, params.firstRow);
-    if (pixel.x >= params.firstColumn + params.columns || pixel.y >= params.firstRow + params.rows) return;
+    ivec2 pixel;
+    int slot;
+    if (!drawnPixel(pixel, slot)) return;
     PixelSum sum = emptyPixel();
     for (int i = 0; i < params.samples * params.samples; ++i) {
         const ivec2 fine = pixel * params.samples + ivec2(i % params.samples, i / params.samples);
@@ -102,6 +119,5 @@ void main() {
         const float offset = fract(52.9829189 * fract(dot(vec2(fine) + 0.5, vec2(0.06711056, 0.00583715))));
         addRay(sum, march(origin, direction, offset), direction);
     }
-    pixels[(pixel.y - params.firstRow) * params.columns + pixel.x - params.firstColumn] =
-        finishedPixel(sum, params.samples * params.samples);
+    pixels[slot] = finishedPixel(sum, params.samples * params.samples);
 }

@@ -1,5 +1,5 @@
 // Light of one view ray, put together from stretches of the cloud, nearest first. The includer declares lightField,
-// sunDepth, PhaseTable, OneTurnH, OneTurnK, `params` and the constants ONE_TURN, GREY, SUN and PHOTONS.
+// sunDepth, PhaseTable, OneTurnH, OneTurnK, `params`, `push` and the constants ONE_TURN, GREY, SUN and PHOTONS.
 #ifndef LUMULUS_LIB_STRETCH
 #define LUMULUS_LIB_STRETCH
 
@@ -73,7 +73,9 @@ void addRay(inout PixelSum sum, RayLight ray, vec3 direction) {
     const float transmittance = exp(-ray.depth);
     const vec3 turned = exp(-params.light.decay * ray.depth);
     sum.pixel.cloud += ray.cloud;
-    sum.pixel.radiance += ray.cloud + background(params.light, direction, transmittance, turned);
+    sum.pixel.radiance += ray.cloud + params.light.skyRadiance * turned;
+    // what is drawn in the sun's disc is not spread over its neighbours
+    if (push.what != DRAW_LATTICE) sum.pixel.radiance += discSeen(params.light, direction) * transmittance;
     sum.pixel.transmittance += vec3(transmittance);
     sum.pixel.alpha += 1.0 - (turned.x + turned.y + turned.z) / 3.0;
     sum.pixel.depth += ray.distance;

@@ -1,6 +1,6 @@
 // The sun's light with one turn, per unit of σs and irradiance (one_turn.h has the formula). The includer declares the
 // buffer PhaseTable, the tables oneTurnH and oneTurnK as pictures (optical depth across, angle down) and the constant
-// ONE_TURN: whether the forward peak is cut, and GREY: whether the decay is the same for all colours.
+// ONE_TURN: whether the forward peak is cut, and GREY: whether decay and tables are the same for all colours.
 #ifndef LUMULUS_LIB_SUN_SOURCE
 #define LUMULUS_LIB_SUN_SOURCE
 
@@ -27,13 +27,20 @@ SunView sunView(LightParams light, vec3 viewDirection) {
                    texelMiddle(axis, oneTurnAngleCount));
 }
 
+/// Where a depth lies in the one-turn tables.
+vec2 oneTurnPlace(SunView sun, LightParams light, float tau) {
+    return vec2(texelMiddle(tauToAxis(tau, light.tauMaximum), oneTurnTauCount), sun.angle);
+}
+
 /// H(τs,θ) and K(τ,θ) without their decay e^−κτ.
 vec3 oneTurnBefore(SunView sun, LightParams light, float tau) {
-    return textureLod(oneTurnH, vec2(texelMiddle(tauToAxis(tau, light.tauMaximum), oneTurnTauCount), sun.angle), 0.0).rgb;
+    const vec4 held = textureLod(oneTurnH, oneTurnPlace(sun, light, tau), 0.0);
+    return GREY ? held.rrr : held.rgb;
 }
 
 vec3 oneTurnAfter(SunView sun, LightParams light, float tau) {
-    return textureLod(oneTurnK, vec2(texelMiddle(tauToAxis(tau, light.tauMaximum), oneTurnTauCount), sun.angle), 0.0).rgb;
+    const vec4 held = textureLod(oneTurnK, oneTurnPlace(sun, light, tau), 0.0);
+    return GREY ? held.rrr : held.rgb;
 }
 
 /// Radiance that a stretch of optical thickness `thickness`, seen through `tauView` and lit through `tauSun`, sends to
@@ -52,11 +59,9 @@ vec3 sunScattered(SunView sun, LightParams light, float tauSun, float tauView, f
     return light.albedo * light.sunIrradiance * source;
 }
 
-/// The sky behind, with the sun's disc where the view meets it.
-vec3 background(LightParams light, vec3 direction, float transmittance, vec3 turned) {
-    const ScatterAngle off = angleBetween(light.sunTravel, -direction);
-    const vec3 disc = off.oneMinusCos <= light.sunCone ? light.sunDisc * transmittance : vec3(0.0);
-    return light.skyRadiance * turned + disc;
+/// Radiance of the sun's disc where the view meets it.
+vec3 discSeen(LightParams light, vec3 direction) {
+    return angleBetween(light.sunTravel, -direction).oneMinusCos <= light.sunCone ? light.sunDisc : vec3(0.0);
 }
 
 #endif

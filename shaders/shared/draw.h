@@ -51,17 +51,40 @@ struct FieldParams {
     vec3 sunOffset;
 };
 
+/// Points at every `spacing`th pixel of every `spacing`th row of the whole picture; those that a tile needs.
+struct LatticeParams {
+    ivec2 first;  // point
+    ivec2 size;
+    int spacing;
+    float tolerance;       // of what bends between points, against the brightest of them
+    float depthTolerance;  // the same of distances [m]
+};
+
 struct DrawParams {
     ViewParams view;
     LightParams light;
     FieldParams field;
-    int firstColumn;  // of the band that this dispatch draws
-    int columns;
-    int firstRow;
-    int rows;
+    LatticeParams lattice;
     int tilesAcross;
     int samples;  // rays a pixel, along each side: a grid of them where pixels are larger than voxels
 };
+
+/// Which pixels a dispatch draws: a rectangle of them; a rectangle of lattice points; or those pixels of a rectangle that
+/// lie in listed blocks, a block being the pixels from a lattice point to the next ones.
+const int DRAW_PIXELS = 0;
+const int DRAW_LATTICE = 1;
+const int DRAW_BLOCKS = 2;
+/// Invocations of a workgroup that draws, 16×4.
+const int DRAW_GROUP = 64;
+
+struct DrawPush {
+    int what;
+    ivec2 first;
+    ivec2 count;
+};
+
+/// Texels in a row of a list that is an image.
+const int LIST_WIDTH = 4096;
 
 /// A homogeneous sphere that stands for a leaf: its extinction mass is the leaf's, whatever the radius.
 struct Billboard {
@@ -117,7 +140,9 @@ struct LightFieldPush {
 static_assert(sizeof(ViewParams) == 56 && offsetof(ViewParams, projection) == 52);
 static_assert(sizeof(LightParams) == 88 && offsetof(LightParams, tauMaximum) == 84);
 static_assert(sizeof(FieldParams) == 152 && offsetof(FieldParams, sunOffset) == 140);
-static_assert(sizeof(DrawParams) == 320 && offsetof(DrawParams, samples) == 316);
+static_assert(sizeof(LatticeParams) == 28 && offsetof(LatticeParams, depthTolerance) == 24);
+static_assert(sizeof(DrawParams) == 332 && offsetof(DrawParams, samples) == 328);
+static_assert(sizeof(DrawPush) == 20 && offsetof(DrawPush, count) == 12);
 static_assert(sizeof(Billboard) == 24 && offsetof(Billboard, sunDepth) == 20);
 static_assert(sizeof(Pixel) == 48 && offsetof(Pixel, front) == 44);
 static_assert(sizeof(SunDepthPush) == 76 && offsetof(SunDepthPush, step) == 72);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "cloud/kdtree.h"
@@ -64,11 +65,13 @@ struct Cloud {
     MajorantGrid majorants;     ///< that photons walk through: a single one or one a cell
     gpu::Image majorantImage;
     MajorantGrid cells;  ///< one a cell always: where a march finds empty space
-    gpu::Buffer cellBuffer;
+    std::optional<gpu::Image> cellImage;  ///< none where photons walk through the same cells
     std::vector<Sample> samples;
     KdTree tree;
     std::vector<Collector> collectors;
     PreparationTimes times;
+
+    const gpu::Image& marchedCells() const { return cellImage ? *cellImage : majorantImage; }
 };
 
 struct PrepareOptions {

@@ -204,12 +204,6 @@ gpu::Image indexCollectors(gpu::Context& context, const glm::ivec3& size, const 
     return index;
 }
 
-gpu::Buffer majorantBuffer(gpu::Context& context, const MajorantGrid& grid) {
-    gpu::Buffer buffer(context, "majorants", grid.maxima.size() * sizeof(float), Memory::device);
-    gpu::upload(context, buffer, majorantsAndDistances(grid));
-    return buffer;
-}
-
 gpu::Image majorantImage(gpu::Context& context, const MajorantGrid& grid) {
     gpu::Image image(context, "majorants", grid.cells, VK_FORMAT_R32_SFLOAT);
     gpu::upload(context, image, majorantsAndDistances(grid));
@@ -273,7 +267,7 @@ Cloud prepare(gpu::Context& context, const vdb::Volume& volume, const PrepareOpt
                  grid,
                  majorantImage(context, grid),
                  cells,
-                 majorantBuffer(context, cells),
+                 local ? std::nullopt : std::optional(majorantImage(context, cells)),
                  std::move(samples),
                  std::move(tree),
                  std::move(collectors),

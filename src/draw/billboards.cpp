@@ -22,6 +22,27 @@ double filledVoxels(const cloud::Collector& collector) {
     return std::max(collector.occupiedVoxels(), static_cast<double>(collector.mass));
 }
 
+/// Two texels each: the sphere; extinction and the sun's depth.
+std::vector<glm::vec4> billboardTexels(const std::vector<shared::Billboard>& billboards) {
+    std::vector<glm::vec4> texels;
+    texels.reserve(2 * billboards.size());
+    for (const shared::Billboard& b : billboards) {
+        texels.emplace_back(b.centre, b.radius);
+        texels.emplace_back(b.extinction, b.sunDepth, 0.0F, 0.0F);
+    }
+    return texels;
+}
+
+/// A list as rows of an image, the last one filled up.
+template <class Texel>
+gpu::Image listImage(gpu::Context& context, const char* name, std::vector<Texel> texels, VkFormat format) {
+    const std::size_t width = shared::LIST_WIDTH, rows = std::max<std::size_t>(1, (texels.size() + width - 1) / width);
+    texels.resize(rows * width);
+    gpu::Image image(context, name, glm::ivec2(width, rows), format);
+    gpu::upload(context, image, texels);
+    return image;
+}
+
 }  // namespace
 
 std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, double extinction, const Camera& camera,
@@ -60,25 +81,23 @@ Billboards::Billboards(gpu::Context& context, const cloud::Cloud& cloud, const D
     : context_(context),
       cloud_(cloud),
       program_(context, "billboards", spirv::billboards_comp, features.constants()),
-      billboards_(context, "billboards", 0, gpu::Memory::device),
-      offsets_(context, "tile offsets", 0, gpu::Memory::device),
-      lists_(context, "tile lists", 0, gpu::Memory::device) {}
+      offsets_(context, "tile offsets", 0, gpu::Memory::device) {}
 
 void Billboards::prepare(const Camera& camera, double extinction, std::span<const float> sunDepths) {
     const std::vector<shared::Billboard> billboards = makeBillboards(cloud_, extinction, camera, sunDepths);
     tiles_ = makeTileLists(camera, billboards);
-    billboards_ = filledBuffer(context_, "billboards", billboards);
+    billboards_.emplace(listImage(context_, "billboards", billboardTexels(billboards), VK_FORMAT_R32G32B32A32_SFLOAT));
     offsets_ = filledBuffer(context_, "tile offsets", tiles_.offsets);
-    lists_ = filledBuffer(context_, "tile lists", tiles_.lists);
+    lists_.emplace(listImage(context_, "tile lists", tiles_.lists, VK_FORMAT_R32_UINT));
 }
 
-void Billboards::record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawParams& values) const {
+void Billboards::record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawPush& push) const {
     std::vector<gpu::Binding> bindings = inputs.bindings();
-    bindings.emplace_back("Billboards", billboards_);
+    bindings.emplace_back("billboards", *billboards_, gpu::Sampler::nearest);
     bindings.emplace_back("TileOffsets", offsets_);
-    bindings.emplace_back("TileLists", lists_);
+    bindings.emplace_back("tileLists", *lists_, gpu::Sampler::nearest);
     commands.pass("billboards");
-    commands.dispatch(program_, bindings, {}, bandGroups(values));
+    dispatchDrawing(commands, program_, bindings, inputs.blocks, push);
 }
 
 }  // namespace lumulus::draw

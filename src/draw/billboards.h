@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,17 +26,18 @@ class Billboards {
     /// Sorts and bins for this view, and uploads. Before any commands of the frame are recorded.
     void prepare(const Camera& camera, double extinction, std::span<const float> sunDepths);
 
-    /// Records one band of rows; the fastest where it begins at multiples of TILE_EDGE.
-    void record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawParams& values) const;
+    /// Records one pass over some pixels; the fastest where they begin at multiples of TILE_EDGE.
+    void record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawPush& push) const;
 
     int tilesAcross() const { return tiles_.across; }
 
   private:
     gpu::Context& context_;
     const cloud::Cloud& cloud_;
-    gpu::Program<gpu::NoPush> program_;
+    DrawProgram program_;
     TileLists tiles_;
-    gpu::Buffer billboards_, offsets_, lists_;
+    std::optional<gpu::Image> billboards_, lists_;  ///< of the view that is prepared
+    gpu::Buffer offsets_;
 };
 
 }  // namespace lumulus::draw

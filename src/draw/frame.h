@@ -24,7 +24,7 @@ struct DrawFeatures {
 
 /// Phase function of the drawing passes on the GPU.
 struct PhaseTables {
-    PhaseTables(gpu::Context& context, const phase::ScatteringTables& tables);
+    PhaseTables(gpu::Context& context, const phase::ScatteringTables& tables, bool grey);
     gpu::Buffer phase;
     gpu::Image before, after;  ///< one-turn tables H and K; a single texel where the peak is not cut
 };
@@ -37,13 +37,14 @@ gpu::Buffer filledBuffer(gpu::Context& context, const char* name, const Values& 
     return buffer;
 }
 
-/// What every drawing pass reads and writes. `params` holds one shared::DrawParams.
+/// What every drawing pass reads and writes. `params` holds one shared::DrawParams, `blocks` the list of DRAW_BLOCKS.
 struct FrameInputs {
     const gpu::Buffer& params;
     const PhaseTables& phase;
     const gpu::Image& lightField;
     const gpu::Image& sunDepth;
     const gpu::Buffer& pixels;
+    const gpu::Buffer& blocks;
 
     std::vector<gpu::Binding> bindings() const {
         return {{"Params", params},
@@ -52,14 +53,23 @@ struct FrameInputs {
                 {"oneTurnK", phase.after, gpu::Sampler::linearClamp},
                 {"lightField", lightField, gpu::Sampler::linearClamp},
                 {"sunDepth", sunDepth, gpu::Sampler::linearClamp},
-                {"Pixels", pixels}};
+                {"Pixels", pixels},
+                {"Blocks", blocks}};
     }
 };
 
-/// Workgroups of a drawing pass over a band of rows, or the part of it that a tile takes.
-inline glm::uvec3 bandGroups(const shared::DrawParams& values) {
-    return {(static_cast<std::uint32_t>(values.columns) + 15) / 16, (static_cast<std::uint32_t>(values.rows) + 3) / 4,
-            1};
+using DrawProgram = gpu::Program<shared::DrawPush>;
+
+/// Records the drawing of pixels, lattice points or listed blocks.
+inline void dispatchDrawing(gpu::Commands& commands, const DrawProgram& program,
+                            const std::vector<gpu::Binding>& bindings, const gpu::Buffer& blocks,
+                            const shared::DrawPush& push) {
+    if (push.what == shared::DRAW_BLOCKS)
+        commands.dispatchIndirect(program, bindings, push, blocks);
+    else
+        commands.dispatch(program, bindings, push,
+                          {(static_cast<std::uint32_t>(push.count.x) + 15) / 16,
+                           (static_cast<std::uint32_t>(push.count.y) + 3) / 4, 1});
 }
 
 }  // namespace lumulus::draw

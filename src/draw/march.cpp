@@ -13,12 +13,12 @@ namespace spirv {
 March::March(gpu::Context& context, const cloud::Cloud& cloud, const DrawFeatures& features)
     : cloud_(cloud), program_(context, "march", spirv::march_comp, features.constants()) {}
 
-void March::record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawParams& values) const {
+void March::record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawPush& push) const {
     std::vector<gpu::Binding> bindings = inputs.bindings();
     bindings.emplace_back("density", cloud_.density, gpu::Sampler::linear);
-    bindings.emplace_back("Majorants", cloud_.cellBuffer);
+    bindings.emplace_back("majorants", cloud_.marchedCells(), gpu::Sampler::nearest);
     commands.pass("march");
-    commands.dispatch(program_, bindings, {}, bandGroups(values));
+    dispatchDrawing(commands, program_, bindings, inputs.blocks, push);
 }
 
 }  // namespace lumulus::draw

@@ -9,12 +9,12 @@ namespace lumulus::draw {
 class March {
   public:
     March(gpu::Context& context, const cloud::Cloud& cloud, const DrawFeatures& features);
-    /// Records one band of rows.
-    void record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawParams& values) const;
+    /// Records one pass over some pixels.
+    void record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawPush& push) const;
 
   private:
     const cloud::Cloud& cloud_;
-    gpu::Program<gpu::NoPush> program_;
+    DrawProgram program_;
 };
 
 }  // namespace lumulus::draw

@@ -2,22 +2,28 @@
 
 #include <tbb/parallel_for.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
 namespace lumulus::draw {
 
-LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& sun, const scene::Sky& sky) {
+LayeredImage emptyFrame(const Tile& tile) {
     LayeredImage image;
     image.width = tile.width;
     image.height = tile.height;
+    for (const char* name : {"R", "G", "B", "A", "cloud.R", "cloud.G", "cloud.B"}) image.layer(name, 0.0F);
+    for (const char* name : {"transmittance.R", "transmittance.G", "transmittance.B"}) image.layer(name, 1.0F);
+    for (const char* name : {"depth.Z", "depth.front"}) image.layer(name, shared::FAR_DEPTH);
+    return image;
+}
+
+LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& sun, const scene::Sky& sky) {
+    LayeredImage image = emptyFrame(tile);
     auto& red = image.layer("R");
     auto& green = image.layer("G");
     auto& blue = image.layer("B");
-    for (const char* name : {"A", "cloud.R", "cloud.G", "cloud.B"}) image.layer(name, 0.0F);
-    for (const char* name : {"transmittance.R", "transmittance.G", "transmittance.B"}) image.layer(name, 1.0F);
-    for (const char* name : {"depth.Z", "depth.front"}) image.layer(name, shared::FAR_DEPTH);
-
     const double radius = 0.5 * sun.angularDiameter * std::numbers::pi / 180.0;
     const double disc = std::numbers::pi * std::pow(std::sin(radius), 2);
     tbb::parallel_for(0, tile.height, [&](int y) {
@@ -39,25 +45,29 @@ LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& 
 
 void copyPixels(std::span<const shared::Pixel> pixels, LayeredImage& image, int firstRow, int rows) {
     const auto width = static_cast<std::size_t>(image.width);
-    const std::size_t begin = static_cast<std::size_t>(firstRow) * width;
-    const std::size_t count = static_cast<std::size_t>(rows) * width;
-    const auto rgb = [&](const std::string& prefix, glm::vec3 shared::Pixel::*member) {
-        const char* names[3] = {"R", "G", "B"};
-        for (int channel = 0; channel < 3; ++channel) {
-            std::vector<float>& layer = image.layer(prefix + names[channel]);
-            for (std::size_t i = 0; i < count; ++i) layer[begin + i] = (pixels[i].*member)[channel];
+    // a pixel's floats in the order of its members
+    const std::array<const char*, 12> names{"R",
+                                            "G",
+                                            "B",
+                                            "cloud.R",
+                                            "cloud.G",
+                                            "cloud.B",
+                                            "transmittance.R",
+                                            "transmittance.G",
+                                            "transmittance.B",
+                                            "A",
+                                            "depth.Z",
+                                            "depth.front"};
+    static_assert(sizeof(shared::Pixel) == std::tuple_size_v<decltype(names)> * sizeof(float));
+    std::array<float*, names.size()> layers{};
+    for (std::size_t i = 0; i < names.size(); ++i) layers[i] = image.layer(names[i]).data();
+    tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(rows), [&](std::size_t row) {
+        const std::size_t to = (static_cast<std::size_t>(firstRow) + row) * width;
+        for (std::size_t x = 0; x < width; ++x) {
+            const auto values = std::bit_cast<std::array<float, names.size()>>(pixels[row * width + x]);
+            for (std::size_t i = 0; i < values.size(); ++i) layers[i][to + x] = values[i];
         }
-    };
-    const auto scalar = [&](const char* name, float shared::Pixel::*member) {
-        std::vector<float>& layer = image.layer(name);
-        for (std::size_t i = 0; i < count; ++i) layer[begin + i] = pixels[i].*member;
-    };
-    rgb("", &shared::Pixel::radiance);
-    rgb("cloud.", &shared::Pixel::cloud);
-    rgb("transmittance.", &shared::Pixel::transmittance);
-    scalar("A", &shared::Pixel::alpha);
-    scalar("depth.Z", &shared::Pixel::depth);
-    scalar("depth.front", &shared::Pixel::front);
+    });
 }
 
 }  // namespace lumulus::draw

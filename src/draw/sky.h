@@ -10,6 +10,9 @@
 
 namespace lumulus::draw {
 
+/// All layers that a picture has, black, nothing in the way.
+LayeredImage emptyFrame(const Tile& tile);
+
 /// The part `tile` of the picture without a cloud: sky, the sun's disc, and the layers that every picture has.
 LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& sun, const scene::Sky& sky);
 

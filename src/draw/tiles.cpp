@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
+
+#include "draw/lattice.h"
 
 namespace lumulus::draw {
 
@@ -13,11 +16,27 @@ namespace {
 /// Tiles along the edge of a group, which is filtered first.
 constexpr int groupEdge = 8;
 
+/// A billboard as the beams look at it, a little larger.
+struct Target {
+    glm::dvec3 centre{0.0}, direction{0.0};
+    double radius = 0.0;
+    double sine = 1.0, cosine = 0.0;  ///< of the half angle that it takes from the eye; 1: the eye is in it
+
+    explicit Target(const shared::Billboard& billboard)
+        : centre(billboard.centre), radius(static_cast<double>(billboard.radius) * (1.0 + 1e-5)) {
+        const double distance = glm::length(centre);
+        if (distance <= radius) return;
+        direction = centre / distance;
+        sine = radius / distance;
+        cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
+    }
+};
+
 /// All rays of a rectangle of pixels lie in it: a cone from the eye, or (orthographic) a cylinder along the view.
 class Beam {
   public:
     Beam(const Camera& camera, glm::ivec2 lower, glm::ivec2 upper) : parallel_(isParallel(camera)) {
-        upper = glm::min(upper, glm::ivec2(camera.width, camera.height));
+        upper = glm::min(upper, glm::ivec2(camera.width, camera.height) + (widestSpacing - 1));
         const Ray middle = camera.ray(0.5 * (lower.x + upper.x), 0.5 * (lower.y + upper.y));
         axis_ = middle.direction;
         origin_ = middle.origin - camera.position;
@@ -30,19 +49,22 @@ class Beam {
                 width_ = std::max(width_, parallel_ ? glm::length(ray.origin - middle.origin) : angle(ray.direction));
             }
         width_ *= 1.0 + 1e-4;
-        width_ += parallel_ ? 0.0 : 1e-6;
+        if (parallel_) return;
+        width_ += 1e-6;
+        cosWidth_ = std::cos(width_);
+        sinWidth_ = std::sin(width_);
+        widest_ = width_ >= 0.5 * std::numbers::pi;
     }
 
-    bool mayMeet(const shared::Billboard& billboard) const {
-        const glm::dvec3 centre = glm::dvec3(billboard.centre) - origin_;
-        const double radius = static_cast<double>(billboard.radius) * (1.0 + 1e-5);
+    bool mayMeet(const Target& target) const {
         if (parallel_) {
+            const glm::dvec3 centre = target.centre - origin_;
             const double along = glm::dot(centre, axis_);
-            return along > -radius && glm::length(centre - along * axis_) < radius + width_;
+            return along > -target.radius && glm::length(centre - along * axis_) < target.radius + width_;
         }
-        const double distance = glm::length(centre);
-        if (distance <= radius) return true;
-        return angle(centre / distance) < width_ + std::asin(radius / distance);
+        // the cosine of the sum of both half angles
+        return target.sine >= 1.0 || widest_ ||
+               glm::dot(axis_, target.direction) >= cosWidth_ * target.cosine - sinWidth_ * target.sine;
     }
 
   private:
@@ -50,6 +72,8 @@ class Beam {
     glm::dvec3 axis_{0.0};
     glm::dvec3 origin_{0.0};
     double width_ = 0.0;  // radians, or metres
+    double cosWidth_ = 1.0, sinWidth_ = 0.0;
+    bool widest_ = false;  // half of all directions and more: the sum of two half angles may be beyond π
 
     static bool isParallel(const Camera& camera) { return camera.projection == scene::Projection::orthographic; }
     /// Precise also for small angles.
@@ -58,11 +82,11 @@ class Beam {
     }
 };
 
-std::vector<std::uint32_t> keep(const Beam& beam, const std::vector<shared::Billboard>& billboards,
+std::vector<std::uint32_t> keep(const Beam& beam, const std::vector<Target>& targets,
                                 const std::vector<std::uint32_t>& candidates) {
     std::vector<std::uint32_t> kept;
     for (const std::uint32_t i : candidates)
-        if (beam.mayMeet(billboards[i])) kept.push_back(i);
+        if (beam.mayMeet(targets[i])) kept.push_back(i);
     return kept;
 }
 
@@ -70,10 +94,12 @@ std::vector<std::uint32_t> keep(const Beam& beam, const std::vector<shared::Bill
 
 TileLists makeTileLists(const Camera& camera, const std::vector<shared::Billboard>& billboards) {
     TileLists tiles;
-    tiles.across = (camera.width + shared::TILE_EDGE - 1) / shared::TILE_EDGE;
-    tiles.down = (camera.height + shared::TILE_EDGE - 1) / shared::TILE_EDGE;
+    // the last points of a lattice may lie beyond the picture
+    tiles.across = (camera.width + widestSpacing - 2) / shared::TILE_EDGE + 1;
+    tiles.down = (camera.height + widestSpacing - 2) / shared::TILE_EDGE + 1;
     const auto total = static_cast<std::size_t>(tiles.across) * static_cast<std::size_t>(tiles.down);
     std::vector<std::vector<std::uint32_t>> lists(total);
+    const std::vector<Target> targets(billboards.begin(), billboards.end());
     std::vector<std::uint32_t> all(billboards.size());
     std::iota(all.begin(), all.end(), 0U);
     const int groupsAcross = (tiles.across + groupEdge - 1) / groupEdge;
@@ -84,11 +110,11 @@ TileLists makeTileLists(const Camera& camera, const std::vector<shared::Billboar
     };
     tbb::parallel_for(0, groupsAcross * groupsDown, [&](int group) {
         const int x0 = group % groupsAcross * groupEdge, y0 = group / groupsAcross * groupEdge;
-        const auto candidates = keep(beamOf(x0, y0, groupEdge), billboards, all);
+        const auto candidates = keep(beamOf(x0, y0, groupEdge), targets, all);
         if (candidates.empty()) return;
         for (int y = y0; y < std::min(y0 + groupEdge, tiles.down); ++y)
             for (int x = x0; x < std::min(x0 + groupEdge, tiles.across); ++x)
-                lists[static_cast<std::size_t>(y * tiles.across + x)] = keep(beamOf(x, y, 1), billboards, candidates);
+                lists[static_cast<std::size_t>(y * tiles.across + x)] = keep(beamOf(x, y, 1), targets, candidates);
     });
     tiles.offsets.push_back(0);
     for (const auto& list : lists) {

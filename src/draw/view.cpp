@@ -25,14 +25,15 @@ int projectionOf(scene::Projection projection) {
 
 }  // namespace
 
-int raysAcross(const Camera& camera, const glm::dvec3& centre, double voxelLength) {
-    double pixel = camera.orthographicHeight / camera.height;
-    if (camera.projection != scene::Projection::orthographic) {
-        const bool panorama = camera.projection == scene::Projection::panorama;
-        const double angle = (panorama ? std::numbers::pi : 2.0 * camera.tanHalfFov) / camera.height;
-        pixel = angle * glm::length(centre - camera.position);
-    }
-    return static_cast<int>(std::ceil(std::clamp(pixel / voxelLength, 1.0, maxRaysAcross)));
+double pixelLength(const Camera& camera, const glm::dvec3& place) {
+    if (camera.projection == scene::Projection::orthographic) return camera.orthographicHeight / camera.height;
+    const bool panorama = camera.projection == scene::Projection::panorama;
+    const double angle = (panorama ? std::numbers::pi : 2.0 * camera.tanHalfFov) / camera.height;
+    return angle * glm::length(place - camera.position);
+}
+
+int raysAcross(double voxelPixels) {
+    return static_cast<int>(std::ceil(std::clamp(1.0 / voxelPixels, 1.0, maxRaysAcross)));
 }
 
 shared::ViewParams viewParams(const Camera& camera) {

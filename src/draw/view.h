@@ -7,8 +7,11 @@
 
 namespace lumulus::draw {
 
-/// Rays along each side of a pixel, 1 to 4: about one a voxel (edge `voxelLength` [m]) at the cloud's `centre`.
-int raysAcross(const Camera& camera, const glm::dvec3& centre, double voxelLength);
+/// Edge of a pixel at a place of the world [m].
+double pixelLength(const Camera& camera, const glm::dvec3& place);
+
+/// Rays along each side of a pixel, 1 to 4: about one a voxel, which has the edge of so many pixels.
+int raysAcross(double voxelPixels);
 
 /// The camera for the GPU; positions there are relative to the eye.
 shared::ViewParams viewParams(const Camera& camera);

@@ -112,6 +112,7 @@ enum class DrawMode { march, billboards };
 
 struct Draw {
     DrawMode mode = DrawMode::march;
+    double tolerance = 0.2;  ///< of what is interpolated between pixels, against its surroundings; 0: nothing is
 
     bool operator==(const Draw&) const = default;
 };

@@ -114,8 +114,9 @@ TEST(SharedLayout, Draw) {
                   turnShare, angleScale, tauMaximum);
     EXPECT_LAYOUT(billboards_comp, FieldParams, worldToVoxel, eyeVoxel, size, cells, cellSize, extinction, voxelLength,
                   radianceScale, voxelToSun, sunOffset);
-    EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, field, firstColumn, columns, firstRow, rows, tilesAcross,
-                  samples);
+    EXPECT_LAYOUT(billboards_comp, LatticeParams, first, size, spacing, tolerance, depthTolerance);
+    EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, field, lattice, tilesAcross, samples);
+    EXPECT_PUSH(billboards_comp, DrawPush, what, first, count);
     EXPECT_LAYOUT(billboards_comp, Billboard, centre, radius, extinction, sunDepth);
     EXPECT_LAYOUT(billboards_comp, Pixel, radiance, cloud, transmittance, alpha, depth, front);
     EXPECT_PUSH(sun_depth_comp, SunDepthPush, gridToVoxel, originVoxel, inverseSize, grid, step);

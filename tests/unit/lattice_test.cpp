@@ -1,0 +1,61 @@
+// Which lattice points a tile needs.
+#include "draw/lattice.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace lumulus::draw {
+namespace {
+
+Camera picture(int width, int height) {
+    Camera camera;
+    camera.width = width;
+    camera.height = height;
+    return camera;
+}
+
+TEST(LatticeSpacing, IsLessThanTwoVoxels) {
+    EXPECT_EQ(latticeSpacing(0.99), 1);
+    EXPECT_EQ(latticeSpacing(1.0), 2);
+    EXPECT_EQ(latticeSpacing(1.5), 4);
+    EXPECT_EQ(latticeSpacing(1e9), 4);
+}
+
+/// Along one axis the blocks of pixels first … last look at points block − 1 … block + 2, those beyond the picture
+/// being the last one.
+void expectCovered(int first, int last, int spacing, int pixels, int point, int points) {
+    const int end = (pixels - 1 + spacing - 1) / spacing;
+    for (int pixel = first; pixel <= last; ++pixel)
+        for (int i = -1; i <= 2; ++i) {
+            const int needed = std::clamp(pixel / spacing + i, 0, end);
+            ASSERT_EQ(std::clamp(pixel / spacing + i, point, point + points - 1), needed) << pixel << " " << i;
+        }
+    EXPECT_LE(points, (last - first) / spacing + 5);
+}
+
+TEST(LatticeOf, CoversEveryTile) {
+    for (const int spacing : {2, 4})
+        for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(17, 9), glm::ivec2(32, 31), glm::ivec2(33, 64)})
+            for (int x = 0; x < size.x; x += 3)
+                for (int y = 0; y < size.y; y += 5) {
+                    const Tile tile{x, y, std::min(11, size.x - x), std::min(13, size.y - y)};
+                    const shared::LatticeParams lattice = latticeOf(picture(size.x, size.y), tile, spacing, 0.2, 1.0);
+                    expectCovered(x, x + tile.width - 1, spacing, size.x, lattice.first.x, lattice.size.x);
+                    expectCovered(y, y + tile.height - 1, spacing, size.y, lattice.first.y, lattice.size.y);
+                }
+}
+
+TEST(LatticeRows, CoverEveryBand) {
+    const Tile tile{0, 7, 8, 100};
+    const shared::LatticeParams lattice = latticeOf(picture(8, 120), tile, 4, 0.2, 1.0);
+    for (const Band& band : {Band{0, 16}, Band{16, 16}, Band{96, 4}}) {
+        const Band rows = latticeRows(lattice, tile, band);
+        const int first = tile.y + band.first;
+        expectCovered(first, first + band.rows - 1, 4, 120, lattice.first.y + rows.first, rows.rows);
+        EXPECT_LE(rows.first + rows.rows, lattice.size.y);
+    }
+}
+
+}  // namespace
+}  // namespace lumulus::draw
