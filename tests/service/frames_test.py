@@ -16,6 +16,7 @@ from server import LUMULUS, SCENE, Server, ServiceTest
 from lumulus_client import ServiceError
 
 ALL = ["color", "cloud", "transmittance", "depth", "front"]
+LARGE_SCENE = '[[cloud]]\nprocedural = "cumulus"\nresolution = 480\n'  # takes seconds to make
 LAYERS = {"color": ["R", "G", "B", "A"], "cloud": ["cloud.R", "cloud.G", "cloud.B"],
           "transmittance": ["transmittance.R", "transmittance.G", "transmittance.B"], "depth": ["depth.Z"],
           "front": ["depth.front"]}
@@ -254,6 +255,47 @@ class Ending(unittest.TestCase):
             self.assertEqual(caught.exception.code, "shutting_down")
         self.assertEqual(server.stop(), 0)
         self.assertLess(time.monotonic() - started, 15)
+
+    def check_shut_down(self, server, client, request):
+        """SIGTERM: the request fails as it should, and the server ends soon although it is in the middle of it."""
+        server.process.terminate()
+        with self.assertRaises(ServiceError) as caught:
+            client.wait(request)
+        self.assertEqual(caught.exception.code, "shutting_down")
+        self.assertEqual(server.stop(10), 0)
+        self.assertEqual([event for event in server.log if event.get("level") == "error"], [])
+
+    def test_while_the_default_scene_loads(self):
+        server = Server(LUMULUS, scene=LARGE_SCENE, wait=False)
+        server.event("scene_loading")
+        self.assertEqual(server.stop(10), 0)
+        self.assertEqual(server.log[-1]["event"], "stopped")
+
+    def test_gives_up_a_scene(self):
+        server = Server(LUMULUS)
+        with server.client() as client:
+            request = client.send("load_scene", payload=LARGE_SCENE.encode())
+            server.event("scene_loading")
+            self.check_shut_down(server, client, request)
+
+    def test_fails_what_takes_too_long(self):
+        server = Server(LUMULUS, limits="shutdown_seconds = 0.2")
+        with server.client() as client:
+            client.frame(width=16, height=16)
+            request = client.send("frame", {"width": 3300, "height": 2500})
+            time.sleep(0.5)
+            self.check_shut_down(server, client, request)
+
+    def test_fails_a_picture_in_fog(self):
+        fog = 'cloud = []\n[fog]\nfilter = "gather"\n[[fog.media]]\nkind = "homogeneous"\nvisibility = 300\n'
+        server = Server(LUMULUS, limits="shutdown_seconds = 0.2")
+        with server.client() as client:
+            client.load_scene(toml=fog)
+            width, height = 400, 300
+            picture = numpy.ones(width * height * 3, "f").tobytes() + numpy.full(width * height, 500, "f").tobytes()
+            request = client.send("composite", {"width": width, "height": height}, picture)
+            time.sleep(0.5)
+            self.check_shut_down(server, client, request)
 
 
 if __name__ == "__main__":
