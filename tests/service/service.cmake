@@ -19,6 +19,7 @@ endforeach()
 foreach(class Page Phone)
   service_test(page.${class} page_test.py ${class})
 endforeach()
+service_test(examples examples_test.py)
 service_test(tls tls_test.py)
 service_test(client client_test.py ${CMAKE_BINARY_DIR} $<$<BOOL:${LUMULUS_SANITIZE}>:-fsanitize=address,undefined>)
 # 60 s: /usr/bin/python3 tests/service/load_test.py --seconds 60

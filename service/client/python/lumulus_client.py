@@ -55,7 +55,7 @@ class Frame:
         return numpy.frombuffer(data, f"<f{size}").reshape(entry["height"], entry["width"], part["channels"])
 
     def verify(self):
-        """Whether the payload is what the server hashed."""
+        """Whether the payload is what the server hashed: False too where it was asked not to."""
         return self.info["hash"] == "sha256:" + hashlib.sha256(self.payload).hexdigest()
 
 
