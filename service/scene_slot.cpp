@@ -180,7 +180,9 @@ double SceneSlot::allowSun(std::optional<double> milliseconds, double picture) {
     if (milliseconds && missing) {
         allowed = costs_.sunReductionFor(*milliseconds - picture);
     } else if (milliseconds && wantsSun()) {
-        if (sharpenMs() <= *milliseconds - picture || Clock::now() - lastSharpened_ > longestCoarse) sharpenSun();
+        const double left = *milliseconds - picture;
+        const bool late = left < 0.0;  // whatever is left out
+        if (late || sharpenMs() <= left || Clock::now() - lastSharpened_ > longestCoarse) sharpenSun();
         allowed = CostModel::sunReductions.back();
     }
     renderer_->allowSunReduction(allowed);
