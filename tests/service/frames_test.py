@@ -155,6 +155,17 @@ class Behaviour(ServiceTest):
             none = client.frame(width=256, height=256, budget={"milliseconds": 0}).info
             self.assertEqual((none["reduction"], none["budget_met"]), (8, False))
 
+    def test_an_id_under_way_is_not_taken_again(self):
+        with self.server.client() as client:
+            request = client.send("frame", {"width": 512, "height": 384})
+            client.send("ping", request=request)  # answered at once, with the same id: pings are never under way
+            self.assertEqual(client.receive()[0], 0x8000 + 10)
+            client.send("frame", {"width": 8, "height": 8, "channel": 1}, request=request)
+            kind, _, info, _ = client.receive()
+            self.assertEqual((kind, info["code"]), (0x8000, "bad_request"))
+            self.assertEqual(client.wait(request)[0]["views"][0]["width"], 512)
+            self.assertEqual(client.wait(client.send("frame", {"width": 8, "height": 8}, request=request))[0]["channel"], 0)
+
     def test_cancel(self):
         with self.server.client() as client:
             client.load_scene("small.toml", private=True, set=["photon_map.generations=40",
