@@ -87,7 +87,7 @@ struct SunDepthPush {
     vec3 originVoxel;  // voxel coordinates of the middle of texel (0,0,0)
     vec3 inverseSize;  // of the density volume
     ivec3 grid;
-    float step;     // optical depth of one texel's length at density 1
+    float step;    // optical depth of one texel's length at density 1
     int firstRow;  // of columns that are filled now
 };
 
