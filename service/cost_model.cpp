@@ -8,6 +8,16 @@ void CostModel::traced(double milliseconds) {
     trace_.add(milliseconds);
 }
 
+void CostModel::lit(double milliseconds, double share) {
+    if (share > 0.0) sun_.add(milliseconds / share);
+}
+
+int CostModel::sunReductionFor(double milliseconds) const {
+    for (const int reduction : sunReductions)
+        if (sunMs(sunShare(reduction)) <= milliseconds) return reduction;
+    return sunReductions.back();
+}
+
 void CostModel::drawn(double fixed, double total, std::uint64_t rays) {
     fixed_.add(std::min(fixed, total));
     perRay_.add(std::max(0.0, total - fixed) / static_cast<double>(std::max<std::uint64_t>(1, rays)));

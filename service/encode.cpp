@@ -1,6 +1,6 @@
 #include "service/encode.h"
 
-#include <half.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <array>
@@ -12,6 +12,7 @@
 #include "base/jpeg.h"
 #include "base/png.h"
 #include "base/tonemap.h"
+#include "service/half_pixels.h"
 
 namespace lumulus::service {
 
@@ -43,31 +44,28 @@ std::vector<const float*> planes(const LayeredImage& image, const ProductLayers&
 }
 
 /// Pixel by pixel from layer by layer.
-template <class Value>
-void interleave(const std::vector<const float*>& from, std::size_t width, std::size_t height, std::byte* to) {
-    const std::size_t channels = from.size();
-    tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
-        std::byte* out = to + y * width * channels * sizeof(Value);
-        for (std::size_t x = 0; x < width; ++x)
-            for (const float* plane : from) {
-                const Value value(plane[y * width + x]);
-                std::memcpy(out, &value, sizeof(Value));
-                out += sizeof(Value);
-            }
-    });
+void interleaveFloats(std::span<const float* const> planes, std::size_t count, std::byte* out) {
+    for (std::size_t i = 0; i < count; ++i)
+        for (const float* plane : planes) {
+            std::memcpy(out, plane + i, sizeof(float));
+            out += sizeof(float);
+        }
 }
 
 json appendProduct(const LayeredImage& image, Product product, bool half, std::vector<std::byte>& payload) {
     const ProductLayers& layers = layersOf(product);
     const bool narrow = half && !layers.depth;
     const std::size_t offset = payload.size();
-    const std::size_t bytes = image.pixels() * layers.layers.size() * (narrow ? sizeof(Imath::half) : sizeof(float));
+    const std::size_t bytes = image.pixels() * layers.layers.size() * (narrow ? 2 : sizeof(float));
     payload.resize(offset + bytes);
-    const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
-    if (narrow)
-        interleave<Imath::half>(planes(image, layers), width, height, payload.data() + offset);
-    else
-        interleave<float>(planes(image, layers), width, height, payload.data() + offset);
+    const std::vector<const float*> all = planes(image, layers);
+    const std::size_t row = static_cast<std::size_t>(image.width), rows = static_cast<std::size_t>(image.height);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows), [&](const tbb::blocked_range<std::size_t>& some) {
+        std::vector<const float*> from = all;
+        for (const float*& plane : from) plane += some.begin() * row;
+        std::byte* to = payload.data() + offset + some.begin() * (bytes / rows);
+        (narrow ? interleaveHalves : interleaveFloats)(from, some.size() * row, to);
+    });
     return {{"name", layers.name},
             {"channels", layers.layers.size()},
             {"type", narrow ? "half" : "float"},

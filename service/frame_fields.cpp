@@ -170,6 +170,7 @@ EncodingFields readEncoding(JsonFields& fields) {
         result.encoding = static_cast<Encoding>(*choice);
     result.quality = static_cast<int>(fields.integer("quality", 1, 100).value_or(result.quality));
     result.exposure = fields.number("exposure", -64.0, 64.0);
+    result.hash = fields.flag("hash").value_or(true);
     return result;
 }
 
@@ -186,6 +187,7 @@ FrameRequest readFrame(JsonFields& fields, const RequestLimits& limits) {
     frame.encoding = encoding.encoding;
     frame.quality = encoding.quality;
     frame.exposure = encoding.exposure;
+    frame.hash = encoding.hash;
     const bool forPeople = frame.encoding == Encoding::png || frame.encoding == Encoding::jpeg;
     if (forPeople && frame.products != std::vector{Product::color})
         throw RequestError("bad_request", "png and jpeg hold color alone", fields.place("products"));

@@ -10,11 +10,12 @@ CameraRequest readCamera(JsonFields& fields);
 LightChange readLight(JsonFields& fields);
 FrameRequest readFrame(JsonFields& fields, const RequestLimits& limits);
 
-/// Encoding, quality and exposure: fields `encoding`, `quality`, `exposure`.
+/// Fields `encoding`, `quality`, `exposure`, `hash`.
 struct EncodingFields {
     Encoding encoding = Encoding::half;
     int quality = 85;
     std::optional<double> exposure;
+    bool hash = true;
 };
 EncodingFields readEncoding(JsonFields& fields);
 

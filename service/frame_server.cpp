@@ -2,9 +2,10 @@
 
 #include <sys/stat.h>
 
-#include <array>
+#include <algorithm>
 
 #include "base/error.h"
+#include "service/link.h"
 
 namespace lumulus::service {
 
@@ -14,100 +15,43 @@ using Stream = asio::generic::stream_protocol::socket;
 using Local = asio::local::stream_protocol;
 
 constexpr std::size_t readBytes = 64UL << 10U;
-/// After a failure to accept, as for want of descriptors.
-constexpr auto acceptPause = std::chrono::milliseconds(100);
 
-/// One socket of the protocol: a coroutine that reads and one that writes, which end together.
-class Connection : public std::enable_shared_from_this<Connection> {
+/// Bytes over a stream socket.
+class StreamCarrier {
   public:
-    Connection(Stream socket, Hub& hub) : socket_(std::move(socket)), hub_(hub), wake_(socket_.get_executor()) {
-        wake_.expires_at(asio::steady_timer::time_point::max());
+    explicit StreamCarrier(Stream socket) : socket_(std::move(socket)), buffer_(readBytes) {}
+
+    auto executor() { return socket_.get_executor(); }
+
+    asio::awaitable<std::span<const std::byte>> read(error_code& error) {
+        const std::size_t count = co_await socket_.async_read_some(asio::buffer(buffer_), intoError(error));
+        co_return std::span(buffer_).first(count);
     }
 
-    void run(const std::string& from) {
-        const std::weak_ptr<Connection> weak = weak_from_this();
-        peer_ = hub_.open(from, [weak] {
-            if (const auto self = weak.lock()) self->notify();
-        });
-        if (!peer_) return;
-        asio::co_spawn(
-            socket_.get_executor(), [self = shared_from_this()] { return self->write(); }, asio::detached);
-        asio::co_spawn(
-            socket_.get_executor(), [self = shared_from_this()] { return self->read(); }, asio::detached);
+    asio::awaitable<std::size_t> write(const std::vector<std::byte>& head, const std::vector<std::byte>& payload,
+                                       std::size_t done, error_code& error) {
+        const std::size_t inHead = std::min(done, head.size());
+        const std::array<asio::const_buffer, 2> buffers{asio::buffer(head) + inHead,
+                                                        asio::buffer(payload) + (done - inHead)};
+        co_return co_await socket_.async_write_some(buffers, intoError(error));
+    }
+
+    void close() {
+        error_code ignored;
+        socket_.shutdown(Stream::shutdown_both, ignored);
+        socket_.close(ignored);
     }
 
   private:
-    /// Whoever waits looks again: the writer for something to write, the reader for room.
-    void notify() {
-        if (peer_ && peer_->finished()) {
-            error_code ignored;
-            socket_.shutdown(Stream::shutdown_both, ignored);
-            socket_.close(ignored);
-        }
-        wake_.cancel();
-    }
-
-    asio::awaitable<void> sleep() {
-        error_code woken;
-        co_await wake_.async_wait(intoError(woken));
-    }
-
-    asio::awaitable<void> read() {
-        std::vector<std::byte> buffer(readBytes);
-        asio::steady_timer pause(socket_.get_executor());
-        error_code error;
-        while (!peer_->closing()) {
-            const std::size_t count = co_await socket_.async_read_some(asio::buffer(buffer), intoError(error));
-            if (error) break;
-            hub_.received(*peer_, std::span(buffer).first(count));
-            while (peer_->overfull() && !peer_->closing()) co_await sleep();
-            if (const auto wait = peer_->pause(Clock::now()); wait > Clock::duration::zero()) {
-                pause.expires_after(wait);
-                co_await pause.async_wait(intoError(error));
-            }
-        }
-        // what a client is told last, it should be able to read
-        while (!error && !peer_->finished()) co_await sleep();
-        hub_.close(peer_, error ? error.message() : "closed");
-    }
-
-    asio::awaitable<void> write() {
-        error_code error;
-        while (!error && !peer_->finished()) {
-            const Outgoing* out = peer_->next();
-            if (out == nullptr) {
-                co_await sleep();
-                continue;
-            }
-            const std::size_t total = out->head.size() + out->payload.size();
-            for (std::size_t done = 0; done < total && !error;) {
-                const std::size_t inHead = std::min(done, out->head.size());
-                const std::array<asio::const_buffer, 2> buffers{asio::buffer(out->head) + inHead,
-                                                                asio::buffer(out->payload) + (done - inHead)};
-                const std::size_t count = co_await socket_.async_write_some(buffers, intoError(error));
-                done += count;
-                if (!error) hub_.sent(*peer_, count, done == total);
-            }
-            wake_.cancel();  // the reader may wait for room
-        }
-        peer_->closeNow();
-        notify();
-    }
-
     Stream socket_;
-    Hub& hub_;
-    asio::steady_timer wake_;
-    std::shared_ptr<Peer> peer_;
+    std::vector<std::byte> buffer_;
 };
 
 void start(Stream socket, Hub& hub, const std::string& from) {
-    std::make_shared<Connection>(std::move(socket), hub)->run(from);
-}
-
-asio::awaitable<void> rest() {
-    asio::steady_timer timer(co_await asio::this_coro::executor, acceptPause);
-    error_code ignored;
-    co_await timer.async_wait(intoError(ignored));
+    const auto executor = socket.get_executor();
+    auto link = std::make_shared<Link<StreamCarrier>>(StreamCarrier(std::move(socket)), hub);
+    asio::co_spawn(
+        executor, [link, from] { return link->run(from); }, asio::detached);
 }
 
 bool answers(asio::io_context& io, const std::filesystem::path& path) {
@@ -141,7 +85,14 @@ void FrameServer::listenTcp(const TcpAddress& address) {
     auto acceptor = std::make_shared<Tcp::acceptor>(makeAcceptor(io_, address));
     addresses_.push_back(addressText(acceptor->local_endpoint()));
     tcp_.push_back(acceptor);
-    asio::co_spawn(io_, accept(acceptor), asio::detached);
+    const auto take = [this](Tcp::socket socket) {
+        error_code error, ignored;
+        const Tcp::endpoint from = socket.remote_endpoint(error);
+        socket.set_option(Tcp::no_delay(true), ignored);
+        socket.set_option(asio::socket_base::keep_alive(true), ignored);
+        if (!error) start(Stream(std::move(socket)), hub_, addressText(from));
+    };
+    asio::co_spawn(io_, acceptAll(acceptor, take), asio::detached);
 }
 
 void FrameServer::listenUnix(const std::filesystem::path& path, unsigned mode) {
@@ -158,42 +109,14 @@ void FrameServer::listenUnix(const std::filesystem::path& path, unsigned mode) {
         auto acceptor = std::make_shared<Local::acceptor>(io_, Local::endpoint(path.string()));
         ::umask(before);
         local_.push_back(acceptor);
-        asio::co_spawn(io_, accept(acceptor), asio::detached);
+        const auto take = [this](Local::socket socket) { start(Stream(std::move(socket)), hub_, "unix"); };
+        asio::co_spawn(io_, acceptAll(acceptor, take), asio::detached);
     } catch (const boost::system::system_error& e) {
         ::umask(before);
         throw InputError("cannot listen: " + e.code().message(), path.string(), "change listen.unix");
     }
     addresses_.push_back("unix:" + path.string());
     socketPath_ = path;
-}
-
-asio::awaitable<void> FrameServer::accept(std::shared_ptr<Tcp::acceptor> acceptor) {
-    while (acceptor->is_open()) {
-        error_code error;
-        Tcp::socket socket = co_await acceptor->async_accept(intoError(error));
-        if (error == asio::error::operation_aborted) co_return;
-        if (error) {
-            co_await rest();
-            continue;
-        }
-        const Tcp::endpoint from = socket.remote_endpoint(error);
-        error_code ignored;
-        socket.set_option(Tcp::no_delay(true), ignored);
-        socket.set_option(asio::socket_base::keep_alive(true), ignored);
-        if (!error) start(Stream(std::move(socket)), hub_, addressText(from));
-    }
-}
-
-asio::awaitable<void> FrameServer::accept(std::shared_ptr<Local::acceptor> acceptor) {
-    while (acceptor->is_open()) {
-        error_code error;
-        Local::socket socket = co_await acceptor->async_accept(intoError(error));
-        if (error == asio::error::operation_aborted) co_return;
-        if (error)
-            co_await rest();
-        else
-            start(Stream(std::move(socket)), hub_, "unix");
-    }
 }
 
 void FrameServer::close() {

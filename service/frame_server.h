@@ -24,9 +24,6 @@ class FrameServer {
     void close();
 
   private:
-    asio::awaitable<void> accept(std::shared_ptr<Tcp::acceptor> acceptor);
-    asio::awaitable<void> accept(std::shared_ptr<asio::local::stream_protocol::acceptor> acceptor);
-
     asio::io_context& io_;
     Hub& hub_;
     std::vector<std::shared_ptr<Tcp::acceptor>> tcp_;

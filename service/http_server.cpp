@@ -7,6 +7,7 @@
 
 #include "service/frame_server.h"
 #include "service/http_replies.h"
+#include "service/link.h"
 
 namespace lumulus::service {
 
@@ -21,6 +22,7 @@ using HttpRequest = http::request<http::empty_body>;
 
 constexpr std::uint32_t mostHeaderBytes = 8192;
 constexpr auto headerTime = std::chrono::seconds(10);  // for a request to come, or for its reply to go
+constexpr std::size_t fragmentBytes = std::size_t{1} << 18U;
 constexpr std::size_t messageOverhead = std::size_t{1} << 16U;
 
 HttpQuestion questionOf(const HttpRequest& request) {
@@ -34,86 +36,53 @@ HttpQuestion questionOf(const HttpRequest& request) {
             field(http::field::authorization)};
 }
 
-/// The protocol over a WebSocket: one binary message is any number of bytes of it.
-class SocketConnection : public std::enable_shared_from_this<SocketConnection> {
+/// Bytes over a WebSocket. A message of the protocol goes as one binary message, which comes in fragments, so that a
+/// slow reader is seen to read; what comes may be cut into messages anywhere.
+class WebSocketCarrier {
   public:
-    SocketConnection(Socket socket, Hub& hub)
-        : socket_(std::move(socket)), hub_(hub), wake_(socket_.get_executor()), pause_(socket_.get_executor()) {
-        wake_.expires_at(asio::steady_timer::time_point::max());
+    explicit WebSocketCarrier(Socket socket) : socket_(std::move(socket)) {}
+
+    auto executor() { return socket_.get_executor(); }
+
+    asio::awaitable<std::span<const std::byte>> read(error_code& error) {
+        buffer_.clear();
+        co_await socket_.async_read(buffer_, intoError(error));
+        co_return std::span(static_cast<const std::byte*>(buffer_.cdata().data()), buffer_.size());
     }
 
-    asio::awaitable<void> run(HttpRequest request, std::string from) {
-        beast::get_lowest_layer(socket_).expires_never();
-        socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-        const Config& config = hub_.config();
-        socket_.read_message_max(config.limits.messages.jsonBytes + config.limits.messages.payloadBytes +
-                                 messageOverhead);
-        socket_.binary(true);
-        error_code error;
-        co_await socket_.async_accept(request, intoError(error));
-        if (error) co_return;
-        const std::weak_ptr<SocketConnection> weak = weak_from_this();
-        peer_ = hub_.open(from + " websocket", [weak] {
-            if (const auto self = weak.lock()) self->notify();
-        });
-        if (!peer_) co_return;
-        asio::co_spawn(
-            socket_.get_executor(), [self = shared_from_this()] { return self->write(); }, asio::detached);
-        co_await read();
+    asio::awaitable<std::size_t> write(const std::vector<std::byte>& head, const std::vector<std::byte>& payload,
+                                       std::size_t done, error_code& error) {
+        const std::size_t inHead = std::min(done, head.size());
+        const std::size_t fromHead = head.size() - inHead;
+        const std::size_t count = std::min(fragmentBytes, fromHead + payload.size() - (done - inHead));
+        const std::array<asio::const_buffer, 2> buffers{
+            asio::buffer(head.data() + inHead, std::min(fromHead, count)),
+            asio::buffer(payload.data() + (done - inHead), count - std::min(fromHead, count))};
+        co_await socket_.async_write_some(done + count == head.size() + payload.size(), buffers, intoError(error));
+        co_return count;
     }
+
+    void close() { beast::get_lowest_layer(socket_).close(); }
 
   private:
-    void notify() {
-        if (peer_->finished()) beast::get_lowest_layer(socket_).close();
-        wake_.cancel();
-    }
-
-    asio::awaitable<void> sleep() {
-        error_code woken;
-        co_await wake_.async_wait(intoError(woken));
-    }
-
-    asio::awaitable<void> read() {
-        beast::flat_buffer buffer;
-        error_code error;
-        while (!peer_->closing()) {
-            co_await socket_.async_read(buffer, intoError(error));
-            if (error) break;
-            const auto* data = static_cast<const std::byte*>(buffer.cdata().data());
-            hub_.received(*peer_, std::span(data, buffer.size()));
-            buffer.clear();
-            while (peer_->overfull() && !peer_->closing()) co_await sleep();
-            if (const auto wait = peer_->pause(Clock::now()); wait > Clock::duration::zero()) {
-                pause_.expires_after(wait);
-                co_await pause_.async_wait(intoError(error));
-            }
-        }
-        while (!error && !peer_->finished()) co_await sleep();
-        hub_.close(peer_, error ? error.message() : "closed");
-    }
-
-    asio::awaitable<void> write() {
-        error_code error;
-        while (!error && !peer_->finished()) {
-            const Outgoing* out = peer_->next();
-            if (out == nullptr) {
-                co_await sleep();
-                continue;
-            }
-            const std::array<asio::const_buffer, 2> buffers{asio::buffer(out->head), asio::buffer(out->payload)};
-            const std::size_t count = co_await socket_.async_write(buffers, intoError(error));
-            if (!error) hub_.sent(*peer_, count, true);
-            wake_.cancel();  // the reader may wait for room
-        }
-        peer_->closeNow();
-        notify();
-    }
-
     Socket socket_;
-    Hub& hub_;
-    asio::steady_timer wake_, pause_;
-    std::shared_ptr<Peer> peer_;
+    beast::flat_buffer buffer_;
 };
+
+/// Answers the request for a WebSocket, and serves it.
+asio::awaitable<void> serveWebSocket(Socket socket, Hub& hub, HttpRequest request, std::string from) {
+    beast::get_lowest_layer(socket).expires_never();
+    socket.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
+    const MessageLimits& limits = hub.config().limits.messages;
+    socket.read_message_max(limits.jsonBytes + limits.payloadBytes + messageOverhead);
+    socket.binary(true);
+    socket.auto_fragment(false);  // the carrier does
+    error_code error;
+    co_await socket.async_accept(request, intoError(error));
+    if (error) co_return;
+    auto link = std::make_shared<Link<WebSocketCarrier>>(WebSocketCarrier(std::move(socket)), hub);
+    co_await link->run(from + " websocket");
+}
 
 http::response<http::string_body> responseTo(const HttpRequest& request, Hub& hub) {
     const HttpQuestion question = questionOf(request);
@@ -179,7 +148,7 @@ asio::awaitable<void> session(Tcp::socket socket, Hub& hub, std::string from) {
     beast::tcp_stream stream(std::move(socket));
     std::optional<HttpRequest> upgrade = co_await answer(stream, hub);
     if (upgrade) {
-        co_await std::make_shared<SocketConnection>(Socket(std::move(stream)), hub)->run(std::move(*upgrade), from);
+        co_await serveWebSocket(Socket(std::move(stream)), hub, std::move(*upgrade), from);
     } else {
         error_code ignored;
         stream.socket().shutdown(Tcp::socket::shutdown_send, ignored);
@@ -191,26 +160,15 @@ asio::awaitable<void> session(Tcp::socket socket, Hub& hub, std::string from) {
 HttpServer::HttpServer(asio::io_context& io, Hub& hub) : io_(io), hub_(hub) {}
 
 void HttpServer::listen(const TcpAddress& address) {
-    acceptor_ = std::make_unique<Tcp::acceptor>(makeAcceptor(io_, address));
+    acceptor_ = std::make_shared<Tcp::acceptor>(makeAcceptor(io_, address));
     address_ = addressText(acceptor_->local_endpoint());
-    asio::co_spawn(io_, accept(), asio::detached);
-}
-
-asio::awaitable<void> HttpServer::accept() {
-    asio::steady_timer pause(io_);
-    while (acceptor_->is_open()) {
+    const auto take = [this](Tcp::socket socket) {
         error_code error;
-        Tcp::socket socket = co_await acceptor_->async_accept(intoError(error));
-        if (error == asio::error::operation_aborted) co_return;
-        if (error) {
-            pause.expires_after(std::chrono::milliseconds(100));
-            co_await pause.async_wait(intoError(error));
-            continue;
-        }
         const Tcp::endpoint from = socket.remote_endpoint(error);
         if (!error && !hub_.full())
             asio::co_spawn(io_, session(std::move(socket), hub_, addressText(from)), asio::detached);
-    }
+    };
+    asio::co_spawn(io_, acceptAll(acceptor_, take), asio::detached);
 }
 
 void HttpServer::close() {

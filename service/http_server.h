@@ -20,11 +20,9 @@ class HttpServer {
     void close();
 
   private:
-    asio::awaitable<void> accept();
-
     asio::io_context& io_;
     Hub& hub_;
-    std::unique_ptr<Tcp::acceptor> acceptor_;
+    std::shared_ptr<Tcp::acceptor> acceptor_;
     std::string address_;
 };
 

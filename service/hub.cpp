@@ -79,18 +79,26 @@ void Hub::received(Peer& peer, std::span<const std::byte> bytes) {
 void Hub::dispatch(Peer& peer, Incoming incoming) {
     metrics_.add(Metrics::requestsTotal);
     const std::uint64_t id = incoming.id;
+    // a stream's id comes again with new wishes
+    const bool known = !peer.began(id);
+    if (known && !std::holds_alternative<StartStream>(incoming.request)) {
+        metrics_.add(Metrics::requestsRefused);
+        peer.enqueue(errorReply(id, "bad_request", "a request with this id is under way"), false);
+        return;
+    }
     try {
         if (const auto* chunk = std::get_if<Upload>(&incoming.request)) {
             peer.enqueue(upload(peer, id, *chunk), false);
+            peer.ended(id);
         } else if (std::holds_alternative<StatisticsRequest>(incoming.request)) {
             peer.enqueue({replyTo(MessageType::statistics), id, service_.statistics(peer.client()).dump(), {}}, false);
+            peer.ended(id);
         } else {
-            peer.began(id);
             if (const auto* stop = std::get_if<StopStream>(&incoming.request)) peer.ended(stop->stream);
             service_.submit(peer.client(), id, std::move(incoming.request));
         }
     } catch (const RequestError& e) {
-        peer.ended(id);
+        if (!known) peer.ended(id);
         metrics_.add(Metrics::requestsRefused);
         peer.enqueue(errorReply(id, e.code, e.what(), e.where), false);
     }

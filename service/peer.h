@@ -56,7 +56,8 @@ class Peer {
     std::optional<std::string> timedOut(Clock::time_point now) const;
 
     /// Requests that have not been answered, and streams; they keep the connection from being idle.
-    void began(std::uint64_t id) { open_.insert(id); }
+    /// False where this id is under way already.
+    bool began(std::uint64_t id) { return open_.insert(id).second; }
     void ended(std::uint64_t id) { open_.erase(id); }
 
   private:

@@ -24,7 +24,7 @@ void RenderService::loadLoop() {
             if (stopping_) return;
             job = std::move(loads_.front());
             loads_.pop_front();
-            loading_ = job.client;
+            loading_ = job;
             abandon_ = false;
         }
         load(job);
@@ -37,6 +37,7 @@ void RenderService::load(const LoadJob& job) {
         const SourcedScene found = sourceScene(job.load, config_, job.client);
         SlotPointer slot = findSlot(found.key);
         if (!slot) {
+            logEvent("info", "scene_loading", {{"client", job.client}, {"scene", found.scene.source}});
             slot = std::make_shared<SceneSlot>(found.key, found.scene, config_, [this] {
                 if (abandon_) throw Cancelled{};
             });
@@ -51,7 +52,7 @@ void RenderService::load(const LoadJob& job) {
     } catch (const RequestError& e) {
         failLoad(job, e.code, e.what(), e.where);
     } catch (const Cancelled&) {
-        failLoad(job, "cancelled", "the load was given up");
+        failLoad(job, "shutting_down", "the service is shutting down");  // or its client is gone
     } catch (const TooSlow& e) {
         failLoad(job, "too_large", e.what());
     } catch (const InputError& e) {
@@ -92,16 +93,23 @@ void RenderService::keepSlot(const SlotPointer& slot) {
     metrics_.set(Metrics::scenesHeld, static_cast<std::int64_t>(slots_.size()));
 }
 
+/// With the lock held: its client waits no more, unless for another. False where the load was answered already.
+bool RenderService::endLoad(const LoadJob& job) {
+    if (!loading_) return false;
+    loading_.reset();
+    scheduler_.setWaiting(job.client, std::ranges::count(loads_, job.client, &LoadJob::client) > 0);
+    return true;
+}
+
 void RenderService::finishLoad(const LoadJob& job, const SlotPointer& slot) {
     {
         const std::lock_guard lock(mutex_);
         if (!slotOfClient_.contains(job.client)) return;
         if (std::ranges::count(slots_, slot) == 0) throw RequestError("busy", "the scene has gone: load it again");
+        if (!endLoad(job)) return;
         slotOfClient_[job.client] = slot;
-        const bool more = std::ranges::count(loads_, job.client, &LoadJob::client) > 0;
-        scheduler_.setWaiting(job.client, more);
+        deliver_(job.client, {replyTo(MessageType::loadScene), job.id, slot->description(), {}}, false);
     }
-    deliver_(job.client, {replyTo(MessageType::loadScene), job.id, slot->description(), {}}, false);
     wake_.notify_one();
 }
 
@@ -109,11 +117,10 @@ void RenderService::failLoad(const LoadJob& job, const std::string& code, const 
                              const std::string& where) {
     {
         const std::lock_guard lock(mutex_);
-        const bool more = std::ranges::count(loads_, job.client, &LoadJob::client) > 0;
-        scheduler_.setWaiting(job.client, more);
+        if (!endLoad(job)) return;
+        deliver_(job.client, errorReply(job.id, code, text, where), false);
     }
     logEvent("warning", "scene_refused", {{"client", job.client}, {"code", code}, {"message", text}});
-    deliver_(job.client, errorReply(job.id, code, text, where), false);
     wake_.notify_one();
 }
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "service/event_log.h"
 #include "service/json_fields.h"
 #include "service/render_service.h"
@@ -15,12 +16,17 @@ namespace {
 /// However busy streams keep the service, its photons get a generation this often.
 constexpr auto longestWithoutGeneration = std::chrono::seconds(1);
 
+bool starves(const SceneSlot& slot, Clock::time_point now) {
+    return slot.wantsGeneration() && now - slot.lastTraced() > longestWithoutGeneration;
+}
+
 }  // namespace
 
 void RenderService::renderLoop() {
     while (true) {
         std::optional<Job> job;
         SlotPointer toRefine;
+        bool starving = false;
         {
             std::unique_lock lock(mutex_);
             rendering_ = false;
@@ -31,7 +37,7 @@ void RenderService::renderLoop() {
             const auto revision = [this](ClientId client) { return revisionOf(client); };
             const auto due = scheduler_.nextDue(revision);
             if (!closing_) toRefine = slotToRefine(now, due ? std::max(*due, now) : due);
-            const bool starving = toRefine && now - toRefine->lastTraced() > longestWithoutGeneration;
+            starving = toRefine && starves(*toRefine, now);
             if (!starving) job = scheduler_.take(now, revision);
             if (!job && !toRefine) {
                 if (due)
@@ -45,32 +51,38 @@ void RenderService::renderLoop() {
         if (job)
             make(std::move(*job));
         else
-            refine(toRefine);
+            refine(toRefine, starving || !toRefine->wantsSun());
     }
 }
 
-/// A slot in use whose ring is not full, if there is time for a generation before the next picture is due.
+/// A slot in use whose ring is not full or whose sun is coarse, if there is time for a step before the next picture is
+/// due.
 RenderService::SlotPointer RenderService::slotToRefine(Clock::time_point now, std::optional<Clock::time_point> due) {
     SlotPointer best;
     for (const SlotPointer& slot : slots_) {
         const bool used = slot == defaultSlot_ ||
                           std::ranges::any_of(slotOfClient_, [&](const auto& entry) { return entry.second == slot; });
-        if (used && slot->wantsGeneration() && (!best || slot->lastTraced() < best->lastTraced())) best = slot;
+        if (used && (slot->wantsGeneration() || slot->wantsSun()) && (!best || slot->lastTraced() < best->lastTraced()))
+            best = slot;
     }
-    if (!best || !due || now - best->lastTraced() > longestWithoutGeneration) return best;
-    const auto cost = std::chrono::duration<double, std::milli>(best->traceMs());
+    if (!best || !due || starves(*best, now)) return best;
+    const double step = best->wantsSun() ? best->sharpenMs() : best->traceMs();
+    const auto cost = std::chrono::duration<double, std::milli>(step);
     return now + cost < *due ? best : nullptr;
 }
 
-void RenderService::refine(const SlotPointer& slot) {
+void RenderService::refine(const SlotPointer& slot, bool generation) {
     try {
-        slot->traceGeneration();
-        metrics_.add(Metrics::generationsTraced);
+        if (generation) {
+            slot->traceGeneration();
+            metrics_.add(Metrics::generationsTraced);
+        } else {
+            slot->sharpenSun();
+        }
         const std::lock_guard lock(mutex_);
         publish(*slot);
     } catch (const std::exception& e) {
-        logEvent("error", "generation_failed", {{"scene", slot->scene().source}, {"message", e.what()}});
-        dropSlot(slot);
+        dropSlot(slot, "generation_failed", e.what());
     }
 }
 
@@ -119,14 +131,10 @@ void RenderService::make(Job job) {
     } catch (const RequestError& e) {
         fail(job, e.code, e.what(), e.where);
     } catch (const Cancelled&) {
-        if (job.stream)
-            finish(job);  // its end was answered already
-        else
-            fail(job, "cancelled", "cancelled on request");
+        fail(job, "cancelled", "cancelled on request");
     } catch (const std::exception& e) {
         fail(job, "internal", e.what());
-        logEvent("error", "frame_failed", {{"client", job.client}, {"message", e.what()}});
-        dropSlot(slot);
+        dropSlot(slot, "frame_failed", e.what());
     }
 }
 
@@ -140,19 +148,19 @@ void RenderService::makeFrame(Job job, const FrameRequest& frame, const SlotPoin
         hurry = closing_;
     }
     if (!hurry && slot->needsGeneration(job, frame)) {
-        refine(slot);
+        refine(slot, true);
         bool kept = false;
         {
             const std::lock_guard lock(mutex_);
             kept =
                 slotOfClient_.contains(job.client) && slotOfClient_.at(job.client) == slot && scheduler_.putBack(job);
         }
-        if (!kept) fail(job, "superseded", "a newer frame of the channel takes its place, or its scene is gone");
+        if (!kept) leaveOut(job);
         return;
     }
     // a stream without a budget refines as it goes
     const bool refines = job.stream && !frame.budget.milliseconds && !frame.budget.photons && slot->wantsGeneration();
-    if (refines && !hurry) refine(slot);
+    if (refines && !hurry) refine(slot, true);
     SceneSlot::Frame made = slot->draw(job, frame);
     {
         const std::lock_guard lock(mutex_);
@@ -161,37 +169,42 @@ void RenderService::makeFrame(Job job, const FrameRequest& frame, const SlotPoin
     handOver(job, std::move(made));
 }
 
+void RenderService::leaveOut(const Job& job) {
+    if (!job.stream) {
+        fail(job, "superseded", "a newer frame of the channel takes its place, or its scene is gone");
+        return;
+    }
+    const std::lock_guard lock(mutex_);
+    scheduler_.leaveOut(job);
+}
+
 void RenderService::handOver(const Job& job, SceneSlot::Frame frame) {
     {
         const std::lock_guard lock(mutex_);
-        scheduler_.done(job);
+        if (!scheduler_.done(job)) return;
         scheduler_.frameHandedOver(job.client);
+        deliver_(job.client, std::move(frame.reply), true);
     }
     metrics_.add(Metrics::framesSent);
     metrics_.add(Metrics::framesReduced, frame.reduced ? 1 : 0);
     metrics_.add(Metrics::deadlinesMissed, frame.late ? 1 : 0);
     metrics_.frameLatency(frame.seconds);
-    deliver_(job.client, std::move(frame.reply), true);
-}
-
-void RenderService::finish(const Job& job) {
-    const std::lock_guard lock(mutex_);
-    scheduler_.done(job);
 }
 
 void RenderService::fail(const Job& job, const std::string& code, const std::string& text, const std::string& where) {
     {
         const std::lock_guard lock(mutex_);
+        if (!scheduler_.done(job)) return;
         if (job.stream) scheduler_.stopStream(job.client, job.id);
-        scheduler_.done(job);
+        deliver_(job.client, errorReply(job.id, code, text, where), false);
     }
     metrics_.add(Metrics::requestsRefused);
-    deliver_(job.client, errorReply(job.id, code, text, where), false);
 }
 
 /// A renderer in which something failed is of no more use; its clients have to load again.
-void RenderService::dropSlot(const SlotPointer& slot) {
-    if (!slot) return;
+void RenderService::dropSlot(const SlotPointer& slot, const char* event, const std::string& why) {
+    if (!slot || interrupted()) return;  // the service ends
+    logEvent("error", event, {{"scene", slot->scene().source}, {"message", why}});
     const std::lock_guard lock(mutex_);
     std::erase(slots_, slot);
     states_.erase(slot->key());

@@ -1,6 +1,9 @@
 #include "service/render_service.h"
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/error.h"
 #include "service/event_log.h"
@@ -34,6 +37,7 @@ RenderService::RenderService(const Config& config, Metrics& metrics, Deliver del
         load.quality = qualityOf(config.quality);
         try {
             SourcedScene found = sourceScene(load, config, 0);
+            logEvent("info", "scene_loading", {{"scene", found.scene.source}});
             defaultSlot_ = std::make_shared<SceneSlot>(found.key, found.scene, config, std::function<void()>());
         } catch (const std::runtime_error& e) {
             throw InputError(std::string("the default scene: ") + e.what(), config.defaultScene,
@@ -69,7 +73,7 @@ void RenderService::removeClient(ClientId client) {
         scheduler_.removeClient(client);
         slotOfClient_.erase(client);
         std::erase_if(loads_, [&](const LoadJob& job) { return job.client == client; });
-        if (loading_ == client) abandon_ = true;
+        if (loading_ && loading_->client == client) abandon_ = true;
         metrics_.set(Metrics::streamsRunning, static_cast<std::int64_t>(scheduler_.streams()));
     }
     wake_.notify_one();
@@ -107,11 +111,11 @@ void RenderService::submit(ClientId client, std::uint64_t id, Request request) {
             replies.push_back({replyTo(MessageType::change), id, "{}", {}});
         }
         metrics_.set(Metrics::streamsRunning, static_cast<std::int64_t>(scheduler_.streams()));
+        metrics_.add(Metrics::framesSuperseded, static_cast<std::int64_t>(superseded.size()));
+        for (const std::uint64_t old : superseded)
+            deliver_(client, errorReply(old, "superseded", "a newer frame of the channel takes its place"), false);
+        for (Message& reply : replies) deliver_(client, std::move(reply), false);
     }
-    metrics_.add(Metrics::framesSuperseded, static_cast<std::int64_t>(superseded.size()));
-    for (const std::uint64_t old : superseded)
-        deliver_(client, errorReply(old, "superseded", "a newer frame of the channel takes its place"), false);
-    for (Message& reply : replies) deliver_(client, std::move(reply), false);
     wake_.notify_one();
     loadWake_.notify_one();
 }
@@ -136,28 +140,24 @@ json RenderService::statistics(ClientId client) {
 }
 
 void RenderService::shutDown() {
-    std::vector<Job> streams;
-    std::deque<LoadJob> loads;
     std::unique_lock lock(mutex_);
     closing_ = true;
     abandon_ = true;
-    loads.swap(loads_);
-    std::vector<Job> waiting = scheduler_.clear();
-    for (Job& job : waiting) {
-        if (job.stream)
-            streams.push_back(std::move(job));
-        else
-            scheduler_.submit(std::move(job));
-    }
+    std::deque<LoadJob> loads = std::exchange(loads_, {});
+    std::vector<Job> failed = scheduler_.endStreams();
     for (const LoadJob& job : loads) scheduler_.setWaiting(job.client, false);
     wake_.notify_all();
     const auto limit = std::chrono::duration<double>(config_.limits.shutdownSeconds);
     idle_.wait_for(lock, limit, [this] { return !scheduler_.hasQueued() && !rendering_ && !loading_; });
-    const std::vector<Job> left = scheduler_.clear();
-    lock.unlock();
-    for (const Job& job : streams) fail(job, "shutting_down", "the service is shutting down: the stream ends");
-    for (const Job& job : left) fail(job, "shutting_down", "the service is shutting down");
-    for (const LoadJob& job : loads) failLoad(job, "shutting_down", "the service is shutting down");
+    if (loading_) loads.push_back(*std::exchange(loading_, std::nullopt));
+    for (const std::vector<Job>& left : {scheduler_.takeQueued(), scheduler_.takeCurrent()})
+        std::ranges::copy_if(left, std::back_inserter(failed), [](const Job& job) { return !job.stream; });
+    const auto fails = [this](ClientId client, std::uint64_t id) {
+        metrics_.add(Metrics::requestsRefused);
+        deliver_(client, errorReply(id, "shutting_down", "the service is shutting down"), false);
+    };
+    for (const Job& job : failed) fails(job.client, job.id);
+    for (const LoadJob& job : loads) fails(job.client, job.id);
 }
 
 }  // namespace lumulus::service

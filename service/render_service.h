@@ -19,11 +19,11 @@
 namespace lumulus::service {
 
 /// Makes frames for many clients on two threads of its own: one loads scenes, one owns the renderers and draws, and
-/// refines photons while nobody asks. Every request gets one reply (streams many), handed to `deliver` on one of the
-/// two threads.
+/// refines photons while nobody asks. Every request gets one reply (streams many), handed to `deliver` on any thread.
 class RenderService {
   public:
-    /// `frame`: a picture, whose departure is to be told by frameSent().
+    /// `frame`: a picture, whose departure is to be told by frameSent(). Must not call the service: some replies come
+    /// while it is locked, so that they come in the order of what they tell.
     using Deliver = std::function<void(ClientId client, Message reply, bool frame)>;
 
     /// Loads the default scene. `config` and `metrics` must outlive the service.
@@ -42,8 +42,9 @@ class RenderService {
     /// What the client's scene is up to.
     nlohmann::json statistics(ClientId client);
 
-    /// Refuses what comes, ends streams, and finishes the frames that wait, drawn with the photons that are there; what
-    /// is not done after shutdown_seconds fails. Returns when all is answered.
+    /// Refuses what comes, ends streams, gives up loads, and finishes the frames that wait, drawn with the photons that
+    /// are there; what is not done after shutdown_seconds fails with `shutting_down`. Returns when all is answered; the
+    /// threads may be at work still.
     void shutDown();
 
   private:
@@ -58,19 +59,20 @@ class RenderService {
     void load(const LoadJob& job);
     SlotPointer findSlot(const std::string& key);
     void keepSlot(const SlotPointer& slot);
+    bool endLoad(const LoadJob& job);
     void finishLoad(const LoadJob& job, const SlotPointer& slot);
     void failLoad(const LoadJob& job, const std::string& code, const std::string& text, const std::string& where = {});
 
     void renderLoop();
     void make(Job job);
     void makeFrame(Job job, const FrameRequest& frame, const SlotPointer& slot);
+    void leaveOut(const Job& job);
     void handOver(const Job& job, SceneSlot::Frame frame);
-    void finish(const Job& job);
     void fail(const Job& job, const std::string& code, const std::string& text, const std::string& where = {});
-    void dropSlot(const SlotPointer& slot);
+    void dropSlot(const SlotPointer& slot, const char* event, const std::string& why);
     void applyChanges();
     SlotPointer slotToRefine(Clock::time_point now, std::optional<Clock::time_point> due);
-    void refine(const SlotPointer& slot);
+    void refine(const SlotPointer& slot, bool generation);
     void publish(const SceneSlot& slot);
     std::uint64_t revisionOf(ClientId client) const;
     SlotPointer slotOf(ClientId client);
@@ -89,8 +91,8 @@ class RenderService {
     std::map<std::string, std::uint64_t> revisions_;  // of slots by key
     std::vector<std::pair<SlotPointer, LightChange>> changes_;
     std::deque<LoadJob> loads_;
-    std::optional<ClientId> loading_;  // whose scene the load thread is at
-    bool rendering_ = false;           // the render thread is at a picture
+    std::optional<LoadJob> loading_;  // that the load thread is at, and its client waits for
+    bool rendering_ = false;          // the render thread is at a picture
     bool closing_ = false, stopping_ = false;
     std::atomic<bool> abandon_{false};  // ends a load under way
 

@@ -96,6 +96,7 @@ Composite readComposite(JsonFields& fields, const std::vector<std::byte>& payloa
     composite.encoding = encoding.encoding;
     composite.quality = encoding.quality;
     composite.exposure = encoding.exposure;
+    composite.hash = encoding.hash;
     if (payload.size() != pixels * 4 * sizeof(float))
         throw RequestError("bad_request", "the payload must be 3 floats of colour a pixel, then 1 of depth a pixel");
     static_assert(std::endian::native == std::endian::little);

@@ -80,6 +80,7 @@ struct FrameRequest {
     Encoding encoding = Encoding::half;
     int quality = 85;                ///< of JPEG
     std::optional<double> exposure;  ///< stops, for PNG and JPEG
+    bool hash = true;                ///< of the payload, in the reply
 };
 
 struct StartStream {
@@ -99,6 +100,7 @@ struct Composite {
     Encoding encoding = Encoding::half;
     int quality = 85;
     std::optional<double> exposure;
+    bool hash = true;
     std::vector<float> color;  ///< RGB, pixel by pixel
     std::vector<float> depth;  ///< metres from the eye
 };

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> photonPasses{"trace", "sort", "gather", "accumulate"};
 /// Once for each direction of the sun: not what a frame costs.
-constexpr std::string_view rarePass = "sun depth";
+constexpr std::array<std::string_view, 2> sunPasses{"sun depth", "collector sun"};
 constexpr std::array<std::string_view, 2> pixelPasses{"march", "billboards"};
 
 template <std::size_t N>
@@ -61,6 +61,10 @@ std::uint64_t pixelsOf(const std::vector<View>& views) {
     return pixels;
 }
 
+json hashOf(const std::vector<std::byte>& payload, bool wanted) {
+    return wanted ? json("sha256:" + sha256Hex(payload)) : json();
+}
+
 }  // namespace
 
 struct SceneSlot::Drawn {
@@ -79,7 +83,8 @@ bool SceneSlot::needsGeneration(const Job& job, const FrameRequest& frame) const
     if (!frame.budget.milliseconds) return !job.stream;  // a stream gets what is there
     const double left = *frame.budget.milliseconds - milliseconds(Clock::now() - job.arrived);
     const std::vector<View> views = viewsOf(frame);
-    const double after = costs_.drawMs(views.size(), raysOf(views)) + costs_.encodeMs(frame.encoding, pixelsOf(views));
+    double after = costs_.drawMs(views.size(), raysOf(views)) + costs_.encodeMs(frame.encoding, pixelsOf(views));
+    if (renderer_->sunReduction() == 0) after += costs_.sunMs(CostModel::sunShare(CostModel::sunReductions.back()));
     return costs_.traceMs() > 0.0 && costs_.traceMs() + after <= left;
 }
 
@@ -159,12 +164,14 @@ std::map<std::string, double> SceneSlot::tracePasses() {
 }
 
 void SceneSlot::noteCosts(const Drawn& drawn, std::uint64_t rays) {
-    double fixed = 0.0;
-    for (const auto& [name, ms] : drawn.passes)
-        if (!among(pixelPasses, name) && name != rarePass) fixed += ms;
-    const double rare = drawn.passes.contains(std::string(rarePass)) ? drawn.passes.at(std::string(rarePass)) : 0.0;
+    double fixed = 0.0, sun = 0.0;
+    for (const auto& [name, ms] : drawn.passes) {
+        if (among(sunPasses, name)) sun += ms;
+        if (!among(sunPasses, name) && !among(pixelPasses, name)) fixed += ms;
+    }
+    if (sun > 0.0) costs_.lit(sun, CostModel::sunShare(renderer_->sunReduction()));
     const auto views = static_cast<double>(drawn.views.size());
-    costs_.drawn(fixed / views, std::max(0.0, drawn.drawMs - rare) - fixed * (1.0 - 1.0 / views), rays);
+    costs_.drawn(fixed / views, std::max(0.0, drawn.drawMs - sun) - fixed * (1.0 - 1.0 / views), rays);
 }
 
 /// What `render` needs to make the same picture, as values of --set.
@@ -216,13 +223,17 @@ SceneSlot::Frame SceneSlot::composite(const Job& job, const Composite& composite
         std::vector<float>& layer = picture.layer(names[channel]);
         for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = composite.color[3 * i + channel];
     }
-    picture = renderer_->throughFog(viewsOf(frame).front(), std::move(picture), composite.depth);
+    const View view = viewsOf(frame).front();
+    {
+        const Guarded guarded(*this, job.cancelled.get());
+        picture = renderer_->throughFog(view, std::move(picture), composite.depth);
+    }
     std::vector<std::byte> payload;
     const EncodeOptions options{
         {Product::color}, composite.encoding, composite.quality, composite.exposure.value_or(scene_.image.exposure)};
     json body{{"scene", scene_.source}, {"encoding", encodingName(composite.encoding)}};
     body["views"] = json::array({appendView(picture, options, payload)});
-    body["hash"] = "sha256:" + sha256Hex(payload);
+    body["hash"] = hashOf(payload, composite.hash);
     const double total = milliseconds(Clock::now() - job.arrived);
     body["milliseconds"] = {{"waited", milliseconds(start - job.arrived)}, {"total", total}};
     return {{replyTo(MessageType::composite), job.id, body.dump(), std::move(payload)}, false, false, total / 1e3};
@@ -234,26 +245,21 @@ SceneSlot::Frame SceneSlot::draw(const Job& job, const FrameRequest& frame) {
     const std::uint64_t pixels = pixelsOf(views), rays = raysOf(views);
     const double queued = milliseconds(start - job.arrived);
     const std::optional<double> limit = frame.budget.milliseconds;
-    const int reduction = limit ? costs_.reductionFor(*limit - queued, views.size(), rays, pixels, frame.encoding) : 1;
+    const double picture = costs_.drawMs(views.size(), rays) + costs_.encodeMs(frame.encoding, pixels);
+    const double sun = allowSun(limit ? std::optional(*limit - queued) : std::nullopt, picture);
+    const double spent = milliseconds(Clock::now() - job.arrived) + sun;
+    const int reduction = limit ? costs_.reductionFor(*limit - spent, views.size(), rays, pixels, frame.encoding) : 1;
 
-    cancelled_ = job.cancelled.get();
-    deadline_ =
-        start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits_.generationSeconds));
     renderer_->setOffset(wind_ * frame.time);
     Drawn drawn;
-    try {
+    {
+        const Guarded guarded(*this, job.cancelled.get());
         drawn = drawViews(frame, views, reduction);
-    } catch (...) {
-        cancelled_ = nullptr;
-        deadline_ = Clock::time_point::max();
-        throw;
     }
-    cancelled_ = nullptr;
-    deadline_ = Clock::time_point::max();
 
     noteCosts(drawn, reduction == 1 ? rays : pixels / static_cast<std::uint64_t>(reduction * reduction));
     const auto hashing = Clock::now();
-    const std::string hash = sha256Hex(drawn.payload);
+    const json hash = hashOf(drawn.payload, frame.hash);
     drawn.encodeMs += milliseconds(Clock::now() - hashing);
     costs_.encoded(frame.encoding, drawn.encodeMs, pixels);
 
@@ -271,8 +277,9 @@ SceneSlot::Frame SceneSlot::draw(const Job& job, const FrameRequest& frame) {
     body["encoding"] = encodingName(frame.encoding);
     body["views"] = drawn.views;
     body["reduction"] = reduction;
+    body["sun_reduction"] = std::max(1, renderer_->sunReduction());
     body["budget_met"] = met;
-    body["hash"] = "sha256:" + hash;
+    body["hash"] = hash;
     body["milliseconds"] = {{"waited", queued},         {"trace", traceMs}, {"draw", drawn.drawMs},
                             {"encode", drawn.encodeMs}, {"total", total},   {"passes", drawn.passes}};
     const auto type = replyTo(job.stream ? MessageType::startStream : MessageType::frame);

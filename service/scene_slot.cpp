@@ -20,6 +20,10 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+Clock::duration inSeconds(double seconds) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
 }  // namespace
 
 void applyLimits(scene::Scene& scene, const Limits& limits) {
@@ -40,8 +44,7 @@ void applyLimits(scene::Scene& scene, const Limits& limits) {
 SceneSlot::SceneSlot(std::string slotKey, const scene::Scene& scene, const Config& config,
                      const std::function<void()>& abandoned)
     : key_(std::move(slotKey)), scene_(scene), loaded_(scene), limits_(config.limits), abandoned_(abandoned) {
-    deadline_ =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits_.loadSeconds));
+    deadline_ = Clock::now() + inSeconds(limits_.loadSeconds);
     RendererOptions options;
     options.device = config.device;
     options.keepRing = true;
@@ -56,7 +59,18 @@ SceneSlot::SceneSlot(std::string slotKey, const scene::Scene& scene, const Confi
     description_ = describe().dump();
 }
 
+SceneSlot::Guarded::Guarded(SceneSlot& slot, const std::atomic<bool>* cancelled) : slot_(slot) {
+    slot_.cancelled_ = cancelled;
+    slot_.deadline_ = Clock::now() + inSeconds(slot_.limits_.generationSeconds);
+}
+
+SceneSlot::Guarded::~Guarded() {
+    slot_.cancelled_ = nullptr;
+    slot_.deadline_ = Clock::time_point::max();
+}
+
 void SceneSlot::guard() const {
+    stopIfInterrupted();
     if (abandoned_) abandoned_();
     if (cancelled_ != nullptr && cancelled_->load()) throw Cancelled{};
     if (Clock::now() > deadline_) throw TooSlow("the scene takes longer than the limits of the service allow");
@@ -127,10 +141,10 @@ int SceneSlot::generationsMissing() const {
 
 void SceneSlot::traceGeneration() {
     const auto start = Clock::now();
-    deadline_ =
-        start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits_.generationSeconds));
-    renderer_->traceGeneration();
-    deadline_ = Clock::time_point::max();
+    {
+        const Guarded guarded(*this, nullptr);
+        renderer_->traceGeneration();
+    }
     costs_.traced(millisecondsSince(start));
     lastTraced_ = Clock::now();
     tracedAt_.push_back(start);
@@ -139,12 +153,48 @@ void SceneSlot::traceGeneration() {
     probe();
 }
 
+/// Small enough for the pauses of a stream.
+double SceneSlot::sharpenShare() const {
+    constexpr double milliseconds = 4.0, least = 1.0 / 256.0;
+    const double whole = costs_.sunMs(1.0);
+    return whole > milliseconds ? std::max(least, milliseconds / whole) : 1.0;
+}
+
+void SceneSlot::sharpenSun() {
+    const auto start = Clock::now();
+    const double share = sharpenShare();
+    const bool whole = renderer_->sharpenSun(share);
+    costs_.lit(millisecondsSince(start), share);
+    lastSharpened_ = Clock::now();
+    if (!whole) return;
+    ++revision_;
+    probe();
+}
+
+/// Decides what the next picture, foreseen to take `picture` milliseconds besides, may leave out of the sun. Returns
+/// the milliseconds that the sun is foreseen to take in it.
+double SceneSlot::allowSun(std::optional<double> milliseconds, double picture) {
+    constexpr auto longestCoarse = std::chrono::milliseconds(100);  // between steps, whatever the deadlines
+    const bool missing = renderer_->sunReduction() == 0;
+    int allowed = CostModel::sunReductions.front();
+    if (milliseconds && missing) {
+        allowed = costs_.sunReductionFor(*milliseconds - picture);
+    } else if (milliseconds && wantsSun()) {
+        const double left = *milliseconds - picture;
+        const bool late = left < 0.0;  // whatever is left out
+        if (late || sharpenMs() <= left || Clock::now() - lastSharpened_ > longestCoarse) sharpenSun();
+        allowed = CostModel::sunReductions.back();
+    }
+    renderer_->allowSunReduction(allowed);
+    return missing ? costs_.sunMs(CostModel::sunShare(allowed)) : 0.0;
+}
+
 /// Looks at the scene in small where the number of generations has doubled: what changed since is noise.
 void SceneSlot::probe() {
     const Generations shown = renderer_->generations();
     const bool first = !probe_;
     if (!first && (noise_ >= 0.0 ? shown.count < 2 * probe_->generations : shown.count <= probe_->generations)) return;
-    if (shown.current < shown.count) return;
+    if (shown.current < shown.count || renderer_->sunReduction() != 1) return;
     View view = renderer_->sceneView();
     view.image.height = std::clamp(probeWidth * view.image.height / view.image.width, 1, 4 * probeWidth);
     view.image.width = probeWidth;

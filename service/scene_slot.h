@@ -49,6 +49,11 @@ class SceneSlot {
     /// Errors: TooSlow.
     void traceGeneration();
     double traceMs() const { return costs_.traceMs(); }
+    /// Whether pictures show a coarse sun.
+    bool wantsSun() const { return renderer_->sunReduction() > 1; }
+    /// Does some of what is missing.
+    void sharpenSun();
+    double sharpenMs() const { return costs_.sunMs(sharpenShare()); }
     Clock::time_point lastTraced() const { return lastTraced_; }
     /// Changes with all that changes pictures of the same view.
     std::uint64_t revision() const { return revision_; }
@@ -61,13 +66,24 @@ class SceneSlot {
         bool reduced = false, late = false;
         double seconds = 0.0;  ///< since the request came
     };
-    /// The client's picture through the fog of the scene. Errors: RequestError.
+    /// The client's picture through the fog of the scene. Errors: Cancelled, RequestError, TooSlow.
     Frame composite(const Job& job, const Composite& composite);
     /// Errors: Cancelled, RequestError, TooSlow.
     Frame draw(const Job& job, const FrameRequest& frame);
 
   private:
     struct Drawn;
+    /// While it lives, work for a job ends where the job is cancelled or takes too long.
+    class Guarded {
+      public:
+        Guarded(SceneSlot& slot, const std::atomic<bool>* cancelled);
+        Guarded(const Guarded&) = delete;
+        Guarded& operator=(const Guarded&) = delete;
+        ~Guarded();
+
+      private:
+        SceneSlot& slot_;
+    };
 
     std::vector<View> viewsOf(const FrameRequest& frame) const;
     Drawn drawViews(const FrameRequest& frame, const std::vector<View>& views, int reduction);
@@ -79,6 +95,8 @@ class SceneSlot {
     std::map<std::string, double> tracePasses();
     void probe();
     void guard() const;
+    double sharpenShare() const;
+    double allowSun(std::optional<double> milliseconds, double picture);
 
     nlohmann::json describe() const;
 
@@ -98,7 +116,7 @@ class SceneSlot {
     glm::dvec3 wind_{0.0};
     std::uint64_t revision_ = 1;
     std::deque<Clock::time_point> tracedAt_;  // of the generations in the ring
-    Clock::time_point lastTraced_;
+    Clock::time_point lastTraced_, lastSharpened_;
     std::map<std::string, double> passTotals_;  // of the passes of photons, when the last frame was made
     struct Probe {
         LayeredImage image;

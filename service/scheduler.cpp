@@ -1,6 +1,8 @@
 #include "service/scheduler.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "service/json_fields.h"
 
@@ -42,7 +44,10 @@ std::vector<std::uint64_t> Scheduler::submit(Job job) {
     if (const auto channel = channelOf(job)) {
         std::erase_if(client.queue, [&](const Job& waiting) {
             if (channelOf(waiting) != channel) return false;
-            replaced.push_back(waiting.id);
+            if (waiting.stream)
+                forget(client, waiting.id);
+            else
+                replaced.push_back(waiting.id);
             return true;
         });
     }
@@ -121,20 +126,35 @@ std::optional<Job> Scheduler::take(Clock::time_point now, const Revision& revisi
     return std::nullopt;
 }
 
-bool Scheduler::putBack(Job job) {
+bool Scheduler::putBack(const Job& job) {
     const auto it = clients_.find(job.client);
-    if (it == clients_.end()) return false;
-    it->second.current.reset();
+    if (it == clients_.end() || !isCurrent(it->second, job)) return false;
     const auto channel = channelOf(job);
     const bool superseded =
         channel && std::ranges::any_of(it->second.queue, [&](const Job& newer) { return channelOf(newer) == channel; });
     if (superseded) return false;
-    it->second.queue.push_front(std::move(job));
+    it->second.current.reset();
+    it->second.queue.push_front(job);
     return true;
 }
 
-void Scheduler::done(const Job& job) {
-    if (const auto it = clients_.find(job.client); it != clients_.end()) it->second.current.reset();
+bool Scheduler::done(const Job& job) {
+    const auto it = clients_.find(job.client);
+    if (it == clients_.end() || !isCurrent(it->second, job)) return false;
+    it->second.current.reset();
+    return !(job.stream && job.cancelled->load());
+}
+
+void Scheduler::leaveOut(const Job& job) {
+    const auto it = clients_.find(job.client);
+    if (it == clients_.end()) return;
+    if (isCurrent(it->second, job)) it->second.current.reset();
+    forget(it->second, job.id);
+}
+
+/// What the stream has seen.
+void Scheduler::forget(Client& client, std::uint64_t stream) {
+    if (const auto it = client.streams.find(stream); it != client.streams.end()) it->second.seen.reset();
 }
 
 std::optional<Clock::time_point> Scheduler::nextDue(const Revision& revision) const {
@@ -166,10 +186,9 @@ bool Scheduler::hasQueued() const {
     return std::ranges::any_of(clients_, [](const auto& entry) { return !entry.second.queue.empty(); });
 }
 
-std::vector<Job> Scheduler::clear() {
+std::vector<Job> Scheduler::endStreams() {
     std::vector<Job> all;
     for (auto& [id, client] : clients_) {
-        for (Job& job : client.queue) all.push_back(std::move(job));
         for (const auto& [number, stream] : client.streams) {
             Job job;
             job.client = id;
@@ -177,8 +196,24 @@ std::vector<Job> Scheduler::clear() {
             job.stream = true;
             all.push_back(std::move(job));
         }
-        client.queue.clear();
+        std::erase_if(client.queue, [](const Job& job) { return job.stream; });
         client.streams.clear();
+    }
+    return all;
+}
+
+std::vector<Job> Scheduler::takeQueued() {
+    std::vector<Job> all;
+    for (auto& [id, client] : clients_) std::ranges::move(std::exchange(client.queue, {}), std::back_inserter(all));
+    return all;
+}
+
+std::vector<Job> Scheduler::takeCurrent() {
+    std::vector<Job> all;
+    for (auto& [id, client] : clients_) {
+        if (!client.current) continue;
+        client.current->cancelled->store(true);
+        all.push_back(*std::exchange(client.current, std::nullopt));
     }
     return all;
 }

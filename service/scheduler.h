@@ -64,11 +64,14 @@ class Scheduler {
 
     /// The next picture, if any is due. A client whose turn it was goes to the end of the line.
     std::optional<Job> take(Clock::time_point now, const Revision& revision);
-    /// Gives back what take() gave, to go on with it when its client's turn comes. False where it was superseded or its
-    /// client is gone.
-    bool putBack(Job job);
-    /// The picture that take() gave is made or failed.
-    void done(const Job& job);
+    /// Gives back what take() gave, to go on with it when its client's turn comes. False where it was superseded, or is
+    /// no longer what its client waits for.
+    bool putBack(const Job& job);
+    /// The picture that take() gave is made or failed. False where nobody waits for it any more: its client is gone,
+    /// its stream was stopped, or takeCurrent() has answered it.
+    bool done(const Job& job);
+    /// A frame of a stream that take() gave is not made: its stream gets another, even if nothing changes.
+    void leaveOut(const Job& job);
     /// When the next stream is due that take() would give then; none where only changes bring one.
     std::optional<Clock::time_point> nextDue(const Revision& revision) const;
 
@@ -77,8 +80,12 @@ class Scheduler {
 
     std::size_t streams() const;
     bool hasQueued() const;
-    /// Everything that waits, streams too; they are forgotten.
-    std::vector<Job> clear();
+    /// Ends all streams; a job with the id of each.
+    std::vector<Job> endStreams();
+    /// All that waits; it is forgotten.
+    std::vector<Job> takeQueued();
+    /// What is under way, told to stop: whoever makes it is not asked for it any more.
+    std::vector<Job> takeCurrent();
 
   private:
     struct Stream {
@@ -96,9 +103,13 @@ class Scheduler {
     };
 
     bool blocked(const Client& client) const { return client.waiting || client.unsent >= bounds_.unsent; }
+    static bool isCurrent(const Client& client, const Job& job) {
+        return client.current && client.current->cancelled == job.cancelled;  // which every job has for itself
+    }
     static bool wanted(const Stream& stream, std::uint64_t revision) {
         return !stream.request.onChange || stream.seen != revision;
     }
+    static void forget(Client& client, std::uint64_t stream);
     std::optional<Job> takeFrom(ClientId id, Client& client, Clock::time_point now, const Revision& revision);
 
     Bounds bounds_;

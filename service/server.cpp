@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "base/error.h"
+#include "base/interrupt.h"
 #include "service/asio.h"
 #include "service/event_log.h"
 #include "service/frame_server.h"
@@ -39,8 +41,9 @@ class Server {
 
     void run() {
         asio::co_spawn(io_, watch(), asio::detached);
+        if (interrupted()) shutDown();  // while the default scene was loaded
         signals_.async_wait([this](const error_code& error, int) {
-            if (!error) shutDown();
+            if (!error && !finishing_.joinable()) shutDown();
         });
         io_.run();
         logEvent("info", "stopped", nullptr);
@@ -63,6 +66,7 @@ class Server {
         pages_.close();
         finishing_ = std::thread([this] {
             hub_.finishWork();
+            interrupt();  // what the threads of rendering are at still, nobody waits for
             // after the replies, which were posted before
             asio::post(io_, [this] {
                 hub_.closeAll();
@@ -94,7 +98,12 @@ class Server {
 }  // namespace
 
 void serve(const Config& config) {
-    Server(config).run();
+    try {
+        Server(config).run();
+    } catch (const Error&) {
+        if (!interrupted()) throw;
+        logEvent("info", "stopped", nullptr);  // before it listened
+    }
 }
 
 }  // namespace lumulus::service

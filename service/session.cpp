@@ -43,6 +43,7 @@ Session::Result Session::receive(std::span<const std::byte> bytes) {
 void Session::handle(Message message, Result& result) {
     const std::uint64_t id = message.id;
     try {
+        if (id == 0) throw RequestError("bad_request", "an id must not be 0");
         Request request = parseRequest(std::move(message), policy_.requests);
         if (const auto* hello = std::get_if<Hello>(&request)) {
             greet(id, *hello, result);

@@ -73,7 +73,7 @@ Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
     : state_(std::make_unique<State>(drawable(scene), options)) {
     State& s = *state_;
     s.statistics.device = s.context.device().name;
-    if (!scene.fog.media.empty()) s.fog.emplace(s.context, scene.fog);
+    if (!scene.fog.media.empty()) s.fog.emplace(s.context, scene.fog, s.check);
     if (scene.clouds.empty()) {
         makeCamera(scene.camera, scene.image, Bounds{});  // what is wrong with it shows before the work
         return;
@@ -111,6 +111,7 @@ void Renderer::traceGeneration() {
     State& s = *state_;
     const Stopwatch watch;
     if (s.photons) s.photons->trace(s.sunlight, s.scene.sky);
+    s.lightEye.reset();
     ++s.sinceChange;
     s.statistics.traceSeconds += watch.seconds();
 }

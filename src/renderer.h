@@ -101,6 +101,14 @@ class Renderer {
     bool setSun(const glm::dvec3& directionTo, const glm::dvec3& irradiance);
     /// `extinction` as in the scene [1/m]. Errors: InputError where it is 0, or where nothing is there to be extinct.
     bool setExtinction(double extinction);
+    /// Where the sun has moved, the next picture may show its first scattering by a grid this many times as coarse (≥
+    /// 1): making it whole can take longer than the picture. It stays so until sharpenSun() is done, or a picture is
+    /// drawn with less allowed.
+    void allowSunReduction(int reduction);
+    /// Of what the last picture showed; 1: none, 0: the next one has to make the sun's grid.
+    int sunReduction() const;
+    /// Does about this share (0 to 1) of what is missing after a picture with a reduction. True where nothing is.
+    bool sharpenSun(double share);
     /// Moves the cloud from where the scene has it [m]; light from infinity does not see it.
     void setOffset(const glm::dvec3& offset);
 

@@ -23,7 +23,9 @@ void Renderer::State::addTimes(const std::vector<gpu::PassTime>& times) {
 
 void Renderer::State::makeLightField(std::uint64_t forPhotons) {
     const cloud::CellGrid grid = draw::lightGrid(*cloud, forPhotons);
-    if (!lightField || !(grid == lightField->grid())) lightField.emplace(context, *cloud, grid, depositGrid);
+    if (lightField && grid == lightField->grid()) return;
+    lightField.emplace(context, *cloud, grid, depositGrid);
+    lightEye.reset();
 }
 
 glm::dvec3 Renderer::State::toVoxel(const glm::dvec3& world) const {
@@ -57,21 +59,19 @@ shared::FieldParams Renderer::State::fieldParams() const {
 
 /// Light in the cloud as this view sees it; the sun's depths only once.
 void Renderer::State::recordLight(photon::Part part) {
-    if (sunDepth && !sunDrawn) {
-        sunDepth->record(commands, -sunlight.directionTo, medium.extinction);
-        if (collectorSun) {
-            commands.barrier("sun depths");
-            collectorSun->record(commands, *sunDepth);
-        }
-        sunDrawn = true;
+    if (sunDepth && (sunDrawn == 0 || sunDrawn > sunAllowed)) {
+        sunDepth->record(commands, -sunlight.directionTo, medium.extinction, sunAllowed);
+        showSunDepth(sunAllowed);
     }
-    if (photons) {
+    const glm::vec3 eye = eyeVoxel();
+    if (photons && lightEye != eye) {
         const photon::Light light = photons->light(part);
-        photons->reconstruct(commands, eyeVoxel(), light);
+        photons->reconstruct(commands, eye, light);
         commands.barrier("collector radiance");
         lightField->record(
             commands, photons->radiance(),
             {*light.counts, photons->depositBase(), light.unit, photons->photonPower(), photons->massScale()});
+        lightEye = part == photon::Part::all ? std::optional(eye) : std::nullopt;
     }
 }
 
@@ -268,6 +268,7 @@ Preview Renderer::preview() {
         for (int row = 0; row < band.rows; ++row) preview.rows.push_back(band.first + row);
     preview.evenGenerations = s.photons->halves().even;
     preview.oddGenerations = s.photons->halves().odd;
+    s.lightEye.reset();
     for (const photon::Part part : {photon::Part::even, photon::Part::odd}) {
         const Stopwatch watch;
         LayeredImage& image = part == photon::Part::even ? preview.even : preview.odd;

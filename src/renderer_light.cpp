@@ -26,8 +26,37 @@ void Renderer::State::dimSun() {
 void Renderer::State::lightChanged() {
     assert(keepRing);
     dimSun();
-    sunDrawn = false;
     sinceChange = 0;
+}
+
+/// Of what was recorded before.
+void Renderer::State::showSunDepth(int reduction) {
+    if (collectorSun) {
+        commands.barrier("sun depths");
+        collectorSun->record(commands, *sunDepth);
+    }
+    sunDrawn = reduction;
+    sharpening = false;
+}
+
+void Renderer::allowSunReduction(int reduction) {
+    state_->sunAllowed = reduction;
+}
+
+int Renderer::sunReduction() const {
+    return state_->sunDepth ? state_->sunDrawn : 1;
+}
+
+bool Renderer::sharpenSun(double share) {
+    State& s = *state_;
+    if (!s.sunDepth || s.sunDrawn <= 1) return true;
+    if (!s.sharpening) s.sunDepth->begin(-s.sunlight.directionTo, s.medium.extinction);
+    s.sharpening = true;
+    s.commands.begin();
+    if (s.sunDepth->recordPart(s.commands, share)) s.showSunDepth(1);
+    s.commands.submit();
+    s.commands.wait();
+    return s.sunDrawn == 1;
 }
 
 bool Renderer::setSun(const glm::dvec3& directionTo, const glm::dvec3& irradiance) {
@@ -35,6 +64,7 @@ bool Renderer::setSun(const glm::dvec3& directionTo, const glm::dvec3& irradianc
     if (directionTo == s.scene.sun.directionTo && irradiance == s.scene.sun.irradiance) return false;
     if (!s.hasSun() && !s.sunDepth)
         throw InputError("the scene was made without a sun", "sun.irradiance", "load a scene with one");
+    if (directionTo != s.scene.sun.directionTo) s.sunDrawn = 0;
     s.scene.sun.directionTo = directionTo;
     s.scene.sun.irradiance = irradiance;
     s.lightChanged();
@@ -50,6 +80,8 @@ bool Renderer::setExtinction(double extinction) {
     s.medium.extinction *= extinction / now;
     now = extinction;
     if (s.photons) s.photons->setExtinction(s.medium.extinction);
+    s.lightEye.reset();
+    s.sunDrawn = 0;
     s.lightChanged();
     return true;
 }

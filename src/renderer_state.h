@@ -64,8 +64,11 @@ struct Renderer::State {
     std::optional<fog::Fog> fog;
     scene::Sun sunlight = scene.sun;  ///< that reaches the cloud through the fog
 
-    bool sunDrawn = false;  // the sun's depths are up to date
-    int sinceChange = 0;    // generations under the light of now
+    std::optional<glm::vec3> lightEye;  // that the light field was made for, by all photons as they are now
+    int sunAllowed = 1;                 // reduction of the sun's depths
+    int sunDrawn = 0;                   // reduction with which they are up to date; 0: they are not
+    bool sharpening = false;            // whole ones are in the making
+    int sinceChange = 0;                // generations under the light of now
     Statistics statistics;
 
     bool scatters() const { return largest(medium.albedo) > 0.0; }
@@ -78,6 +81,7 @@ struct Renderer::State {
     void prepareDrawing();
     void dimSun();
     void lightChanged();
+    void showSunDepth(int reduction);
     void showView(const View& view);
     shared::FieldParams fieldParams() const;
     void makeLightField(std::uint64_t forPhotons);

@@ -2,7 +2,8 @@
 import {Connection, reply, types} from "./protocol.js";
 import {Orbit} from "./orbit.js";
 
-const stream = 1, load = 2, hello = 3; // ids of requests
+const stream = 1, hello = 2; // ids of requests
+let lastLoad = 2; // each has one of its own: several can be under way
 const fov = 40;
 const restTime = 400;          // ms without a touch after which pictures get all pixels
 const hastyMilliseconds = 150; // for a picture until then
@@ -79,7 +80,7 @@ function loadScene() {
     const visibility = 10 ** value("fog");
     if (visibility < clearAir) set.push(`fog.media=[{kind="homogeneous", visibility=${visibility}}]`);
     const quality = welcome.quality ? {quality: welcome.quality} : {};
-    connection.send(types.loadScene, load, {name: welcome.scene, set, ...quality});
+    connection.send(types.loadScene, ++lastLoad, {name: welcome.scene, set, ...quality});
 }
 
 function sceneLoaded(json) {

@@ -19,7 +19,7 @@ float densityBelow(ivec2 column, float depth) {
 }
 
 void main() {
-    const ivec2 column = ivec2(gl_GlobalInvocationID.xy);
+    const ivec2 column = ivec2(gl_GlobalInvocationID.xy) + ivec2(0, push.firstRow);
     if (any(greaterThanEqual(column, push.grid.xy))) return;
     float depth = 0.0;
     imageStore(sunDepth, ivec3(column, 0), vec4(0.0));

@@ -110,7 +110,8 @@ struct SunDepthPush {
     vec3 originVoxel;  // voxel coordinates of the middle of texel (0,0,0)
     vec3 inverseSize;  // of the density volume
     ivec3 grid;
-    float step;  // optical depth of one texel's length at density 1
+    float step;    // optical depth of one texel's length at density 1
+    int firstRow;  // of columns that are filled now
 };
 
 /// From a grid of optical depth to the collectors.
@@ -145,7 +146,7 @@ static_assert(sizeof(DrawParams) == 332 && offsetof(DrawParams, samples) == 328)
 static_assert(sizeof(DrawPush) == 20 && offsetof(DrawPush, count) == 12);
 static_assert(sizeof(Billboard) == 24 && offsetof(Billboard, sunDepth) == 20);
 static_assert(sizeof(Pixel) == 48 && offsetof(Pixel, front) == 44);
-static_assert(sizeof(SunDepthPush) == 76 && offsetof(SunDepthPush, step) == 72);
+static_assert(sizeof(SunDepthPush) == 80 && offsetof(SunDepthPush, firstRow) == 76);
 static_assert(sizeof(CollectorSunPush) == 64 && offsetof(CollectorSunPush, collectors) == 60);
 static_assert(sizeof(LightFieldPush) == 72 && offsetof(LightFieldPush, prior) == 68);
 #endif

@@ -27,6 +27,10 @@ void installSignalHandlers() {
     std::signal(SIGPIPE, SIG_IGN);
 }
 
+void interrupt() {
+    interruptFlag = 1;
+}
+
 bool interrupted() {
     return interruptFlag != 0;
 }

@@ -9,10 +9,13 @@ namespace lumulus {
 /// sizes or a closed pipe fails with an error code instead of killing the process.
 void installSignalHandlers();
 
-/// True after the first SIGINT or SIGTERM.
+/// As the first signal does: for a program that handles signals in another way, when its work is to end.
+void interrupt();
+
+/// True after the first SIGINT or SIGTERM, or interrupt().
 bool interrupted();
 
-/// For the steps of long work, on any thread. Throws Error after the first SIGINT or SIGTERM.
+/// For the steps of long work, on any thread. Throws Error where interrupted().
 void stopIfInterrupted();
 
 /// What long work asks between its steps: throws where the work is to end.

@@ -14,6 +14,7 @@ namespace spirv {
 
 /// 64 MiB of half floats.
 constexpr double maxTexels = 32.0 * 1024 * 1024;
+constexpr int groupEdge = 8;  // of sun_depth.comp
 
 /// Columns: two unit vectors across the light and the light itself.
 glm::dmat3 lightFrame(const glm::dvec3& travel) {
@@ -22,9 +23,13 @@ glm::dmat3 lightFrame(const glm::dvec3& travel) {
     return {across, glm::cross(travel, across), travel};
 }
 
+glm::dmat3 texelToTexture(const SunGrid& grid) {
+    return {1.0 / grid.size.x, 0, 0, 0, 1.0 / grid.size.y, 0, 0, 0, 1.0 / grid.size.z};
+}
+
 }  // namespace
 
-SunGrid makeSunGrid(const cloud::Cloud& cloud, const glm::dvec3& sunTravel, double maxTexels) {
+SunGrid makeSunGrid(const cloud::Cloud& cloud, const glm::dvec3& sunTravel, double maxTexels, int reduction) {
     const glm::dmat3 frame = lightFrame(sunTravel);
     const glm::dmat3 voxelToLight = glm::transpose(frame) * cloud.toWorld.linear;
     glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
@@ -39,7 +44,7 @@ SunGrid makeSunGrid(const cloud::Cloud& cloud, const glm::dvec3& sunTravel, doub
     const double finest = std::cbrt(cloud.voxelVolume);
     const double coarsest = std::cbrt(extent.x * extent.y * extent.z / maxTexels);
     const double widest = std::max(extent.x, std::max(extent.y, extent.z)) / 2000.0;  // 3D images end at 2048 texels
-    grid.spacing = std::max(finest, std::max(coarsest, widest));
+    grid.spacing = reduction * std::max(finest, std::max(coarsest, widest));
     grid.size = glm::ivec3(glm::ceil(extent / grid.spacing)) + 1;
     const glm::dmat3 lightToVoxel = glm::inverse(voxelToLight);
     grid.gridToVoxel = lightToVoxel * grid.spacing;
@@ -50,22 +55,51 @@ SunGrid makeSunGrid(const cloud::Cloud& cloud, const glm::dvec3& sunTravel, doub
 SunDepth::SunDepth(gpu::Context& context, const cloud::Cloud& cloud)
     : context_(context), cloud_(cloud), program_(context, "sun_depth", spirv::sun_depth_comp) {}
 
-void SunDepth::record(gpu::Commands& commands, const glm::dvec3& sunTravel, double extinction) {
-    const SunGrid grid = makeSunGrid(cloud_, sunTravel, maxTexels);
-    if (!image_ || image_->extent() != grid.size)
-        image_.emplace(context_, "sun depth", grid.size, VK_FORMAT_R16_SFLOAT);
-    const glm::vec3 inverseSize = 1.0F / glm::vec3(cloud_.size);
+void SunDepth::lay(Filled& filled, const glm::dvec3& sunTravel, double extinction, int reduction) {
+    filled.grid = makeSunGrid(cloud_, sunTravel, maxTexels, reduction);
+    filled.step = static_cast<float>(extinction * filled.grid.spacing);
+    filled.rows = 0;
+    if (!filled.image || filled.image->extent() != filled.grid.size)
+        filled.image.emplace(context_, "sun depth", filled.grid.size, VK_FORMAT_R16_SFLOAT);
+}
+
+void SunDepth::fill(gpu::Commands& commands, Filled& filled, int rows) {
+    const SunGrid& grid = filled.grid;
+    const auto groups = [](int count) { return static_cast<std::uint32_t>((count + groupEdge - 1) / groupEdge); };
     commands.pass("sun depth");
-    commands.dispatch(
-        program_, {{"density", cloud_.density, gpu::Sampler::linear}, {"sunDepth", *image_}},
-        shared::SunDepthPush{glm::mat3(grid.gridToVoxel), glm::vec3(grid.originVoxel), inverseSize, grid.size,
-                             static_cast<float>(extinction * grid.spacing)},
-        {(static_cast<std::uint32_t>(grid.size.x) + 7) / 8, (static_cast<std::uint32_t>(grid.size.y) + 7) / 8, 1});
-    const glm::dmat3 toTexel = glm::inverse(grid.gridToVoxel);
-    const glm::dmat3 scale(glm::dvec3(1.0 / grid.size.x, 0, 0), glm::dvec3(0, 1.0 / grid.size.y, 0),
-                           glm::dvec3(0, 0, 1.0 / grid.size.z));
-    voxelToTexture_ = glm::mat3(scale * toTexel);
-    textureOffset_ = glm::vec3(scale * (glm::dvec3(0.5) - toTexel * grid.originVoxel));
+    commands.dispatch(program_, {{"density", cloud_.density, gpu::Sampler::linear}, {"sunDepth", *filled.image}},
+                      shared::SunDepthPush{glm::mat3(grid.gridToVoxel), glm::vec3(grid.originVoxel),
+                                           1.0F / glm::vec3(cloud_.size), grid.size, filled.step, filled.rows},
+                      {groups(grid.size.x), groups(rows), 1});
+    filled.rows += rows;
+}
+
+void SunDepth::record(gpu::Commands& commands, const glm::dvec3& sunTravel, double extinction, int reduction) {
+    next_.image.reset();
+    lay(shown_, sunTravel, extinction, reduction);
+    fill(commands, shown_, shown_.grid.size.y);
+}
+
+void SunDepth::begin(const glm::dvec3& sunTravel, double extinction) {
+    lay(next_, sunTravel, extinction, 1);
+}
+
+bool SunDepth::recordPart(gpu::Commands& commands, double share) {
+    const int all = next_.grid.size.y;
+    const int wanted = static_cast<int>(share * all / groupEdge + 1.0) * groupEdge;
+    fill(commands, next_, std::min(wanted, all - next_.rows));
+    if (next_.rows < all) return false;
+    std::swap(shown_, next_);
+    return true;
+}
+
+glm::mat3 SunDepth::voxelToTexture() const {
+    return glm::mat3(texelToTexture(shown_.grid) * glm::inverse(shown_.grid.gridToVoxel));
+}
+
+glm::vec3 SunDepth::textureOffset() const {
+    const SunGrid& grid = shown_.grid;
+    return glm::vec3(texelToTexture(grid) * (glm::dvec3(0.5) - glm::inverse(grid.gridToVoxel) * grid.originVoxel));
 }
 
 }  // namespace lumulus::draw

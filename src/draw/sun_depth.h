@@ -17,8 +17,9 @@ struct SunGrid {
     double spacing = 0.0;         ///< metres between texels
 };
 
-/// A grid that covers the cloud's box, as fine as its voxels where that stays within `maxTexels`.
-SunGrid makeSunGrid(const cloud::Cloud& cloud, const glm::dvec3& sunTravel, double maxTexels);
+/// A grid that covers the cloud's box, as fine as its voxels where that stays within `maxTexels`, or `reduction` times
+/// as coarse.
+SunGrid makeSunGrid(const cloud::Cloud& cloud, const glm::dvec3& sunTravel, double maxTexels, int reduction = 1);
 
 /// Optical depth towards the sun through the whole cloud. Made anew for each direction of the sun; not at all for a
 /// scene without one.
@@ -26,22 +27,37 @@ class SunDepth {
   public:
     SunDepth(gpu::Context& context, const cloud::Cloud& cloud);
 
-    /// Records what fills the grid. `extinction` is σt at density 1 [1/m].
-    void record(gpu::Commands& commands, const glm::dvec3& sunTravel, double extinction);
+    /// Records what fills the grid. `extinction` is σt at density 1 [1/m]. The work falls with the third power of
+    /// `reduction`.
+    void record(gpu::Commands& commands, const glm::dvec3& sunTravel, double extinction, int reduction = 1);
+
+    /// Begins another grid, not reduced, beside the one that is shown.
+    void begin(const glm::dvec3& sunTravel, double extinction);
+    /// After begin(): records what fills about this share (0 to 1) of that grid. True when that was the rest: it takes
+    /// the place of the other, with the same values as record() makes.
+    bool recordPart(gpu::Commands& commands, double share);
 
     /// Valid after record().
-    const gpu::Image& image() const { return *image_; }
+    const gpu::Image& image() const { return *shown_.image; }
     /// Voxel coordinates → texture coordinates of the grid.
-    glm::mat3 voxelToTexture() const { return voxelToTexture_; }
-    glm::vec3 textureOffset() const { return textureOffset_; }
+    glm::mat3 voxelToTexture() const;
+    glm::vec3 textureOffset() const;
 
   private:
+    struct Filled {
+        SunGrid grid;
+        float step = 0.0F;  // optical depth of one texel's length at density 1
+        int rows = 0;       // of columns that are filled
+        std::optional<gpu::Image> image;
+    };
+
+    void lay(Filled& filled, const glm::dvec3& sunTravel, double extinction, int reduction);
+    void fill(gpu::Commands& commands, Filled& filled, int rows);
+
     gpu::Context& context_;
     const cloud::Cloud& cloud_;
     gpu::Program<shared::SunDepthPush> program_;
-    std::optional<gpu::Image> image_;
-    glm::mat3 voxelToTexture_{1.0F};
-    glm::vec3 textureOffset_{0.0F};
+    Filled shown_, next_;
 };
 
 }  // namespace lumulus::draw

@@ -12,13 +12,12 @@ namespace spirv {
 #include "spirv/fog/gather_prepare.comp.h"
 }  // namespace spirv
 
-/// Rows of sources whose shares lie in the tables at once: no taller than images may be, nor larger than 32 MiB where
-/// that holds a row.
+/// Rows of sources whose shares lie in the tables at once: no taller than images may be, nor larger than 32 MiB, nor
+/// more than a second's work on two cores (it can be interrupted only in between), where that is a row.
 int tableRows(const glm::ivec2& size) {
-    constexpr int tallest = 4096;
-    constexpr double texels = 8.0 * 1024 * 1024;
-    const double rows =
-        std::min(tallest / static_cast<double>(size.x), texels / (static_cast<double>(size.x) * size.x));
+    constexpr double tallest = 4096, texels = 8.0 * 1024 * 1024, shares = 256.0 * 1024 * 1024;
+    const double sources = size.x, pixels = sources * size.y;
+    const double rows = std::min({tallest / sources, texels / (sources * sources), shares / (sources * pixels)});
     return static_cast<int>(std::clamp(rows, 1.0, static_cast<double>(size.y)));
 }
 

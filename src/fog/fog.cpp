@@ -51,11 +51,12 @@ void addTimes(std::vector<gpu::PassTime>& sums, const std::vector<gpu::PassTime>
 }  // namespace
 
 struct Fog::State {
-    State(gpu::Context& theContext, const scene::Fog& theScene)
-        : context(theContext), scene(theScene), commands(theContext) {}
+    State(gpu::Context& theContext, const scene::Fog& theScene, Check theCheck)
+        : context(theContext), scene(theScene), check(std::move(theCheck)), commands(theContext) {}
 
     gpu::Context& context;
     scene::Fog scene;
+    Check check;
     gpu::Commands commands;
     std::optional<Surface> surface;
     std::vector<gpu::PassTime> times;
@@ -78,14 +79,15 @@ void Fog::State::run(const LayerInputs& inputs, double largest) {
     submit();
     if (!surface->exact) return;
     for (int row = 0; row < inputs.push.view.size.y;) {
-        stopIfInterrupted();
+        check();
         commands.begin();
         row += surface->exact->recordSources(commands, row, surface->result);
         submit();
     }
 }
 
-Fog::Fog(gpu::Context& context, const scene::Fog& scene) : state_(std::make_unique<State>(context, scene)) {}
+Fog::Fog(gpu::Context& context, const scene::Fog& scene, Check check)
+    : state_(std::make_unique<State>(context, scene, std::move(check))) {}
 
 Fog::~Fog() = default;
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/interrupt.h"
 #include "draw/camera.h"
 #include "gpu/commands.h"
 #include "scene/fog.h"
@@ -21,8 +22,8 @@ struct Layer {
 /// Errors: Error where memory runs out.
 class Fog {
   public:
-    /// `scene` must have media.
-    Fog(gpu::Context& context, const scene::Fog& scene);
+    /// `scene` must have media. `check` is asked between the steps of apply().
+    Fog(gpu::Context& context, const scene::Fog& scene, Check check = stopIfInterrupted);
     ~Fog();
 
     /// The layer as seen by `camera`, whose picture it fills: RGB of each pixel.

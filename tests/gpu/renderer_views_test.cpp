@@ -127,6 +127,60 @@ TEST_P(Views, MovedSunAgesIn) {
     expectPart(test::render(scene).image, ring->draw(), {0, 0, scene.image.width, scene.image.height});
 }
 
+/// A sun's grid that was coarse at first is the same afterwards as one that never was, however it was made whole.
+TEST_P(Views, CoarseSunIsMadeWhole) {
+    const auto ring = ringRenderer(scene, 2);
+    const dvec3 direction = glm::normalize(dvec3(-1.0, 0.3, 0.2));
+    ring->setSun(direction, scene.sun.irradiance);
+    EXPECT_EQ(ring->sunReduction(), 0);
+    const LayeredImage whole = ring->draw();
+    const Tile all{0, 0, scene.image.width, scene.image.height};
+    const auto coarse = [&] {
+        ring->setSun(scene.sun.directionTo, scene.sun.irradiance);
+        ring->setSun(direction, scene.sun.irradiance);
+        ring->allowSunReduction(4);
+        const LayeredImage image = ring->draw();
+        EXPECT_EQ(ring->sunReduction(), 4);
+        const double difference = relativeDifference(image, whole, "G");
+        EXPECT_GT(difference, 0.0);
+        EXPECT_LT(difference, 0.5);
+        EXPECT_EQ(image.layers.at("A"), whole.layers.at("A"));
+    };
+    coarse();
+    int steps = 1;
+    while (!ring->sharpenSun(0.1)) ++steps;
+    EXPECT_GT(steps, 1);
+    EXPECT_TRUE(ring->sharpenSun(0.1));
+    expectPart(whole, ring->draw(), all);
+    coarse();
+    ring->sharpenSun(0.1);  // and not the rest of it
+    ring->allowSunReduction(1);
+    expectPart(whole, ring->draw(), all);
+    EXPECT_EQ(ring->sunReduction(), 1);
+}
+
+/// What views from one place share is made once.
+TEST_P(Views, LightIsMadeOnceForViewsFromOnePlace) {
+    const auto ring = ringRenderer(scene, 2);
+    const auto makesLight = [&] {
+        for (const PassTime& pass : ring->statistics().passes)
+            if (pass.name == "light field") return true;
+        return false;
+    };
+    const LayeredImage first = ring->draw();
+    EXPECT_TRUE(makesLight());
+    View view = ring->sceneView();
+    view.tile = Tile{0, 0, scene.image.width / 2, scene.image.height};
+    expectPart(first, ring->draw(view), *view.tile);
+    EXPECT_FALSE(makesLight());
+    view.camera.position = dvec3(900.0, 50.0, -300.0);
+    ring->draw(view);
+    EXPECT_TRUE(makesLight());
+    ring->traceGeneration();
+    ring->draw(view);
+    EXPECT_TRUE(makesLight());
+}
+
 /// In a thin cloud the light in it hardly depends on the extinction: neither must the radiance of collectors, whatever
 /// the share of old generations in the ring.
 TEST_P(Views, ChangedExtinctionAgesIn) {

@@ -42,7 +42,7 @@ int main(int, char** arguments) {
 class InstalledClient(unittest.TestCase):
     def test_a_program_of_its_own(self):
         server = Server()
-        self.addCleanup(server.stop)
+        self.addCleanup(lambda: self.assertEqual(server.stop(), 0))
         with tempfile.TemporaryDirectory() as folder:
             prefix, source, program = (os.path.join(folder, name) for name in ("prefix", "main.cpp", "main"))
             subprocess.run(["cmake", "--install", BUILD, "--prefix", prefix], check=True, stdout=subprocess.DEVNULL)

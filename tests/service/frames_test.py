@@ -16,6 +16,7 @@ from server import LUMULUS, SCENE, Server, ServiceTest
 from lumulus_client import ServiceError
 
 ALL = ["color", "cloud", "transmittance", "depth", "front"]
+LARGE_SCENE = '[[cloud]]\nprocedural = "cumulus"\nresolution = 480\n'  # takes seconds to make
 LAYERS = {"color": ["R", "G", "B", "A"], "cloud": ["cloud.R", "cloud.G", "cloud.B"],
           "transmittance": ["transmittance.R", "transmittance.G", "transmittance.B"], "depth": ["depth.Z"],
           "front": ["depth.front"]}
@@ -154,6 +155,17 @@ class Behaviour(ServiceTest):
             none = client.frame(width=256, height=256, budget={"milliseconds": 0}).info
             self.assertEqual((none["reduction"], none["budget_met"]), (8, False))
 
+    def test_an_id_under_way_is_not_taken_again(self):
+        with self.server.client() as client:
+            request = client.send("frame", {"width": 512, "height": 384})
+            client.send("ping", request=request)  # answered at once, with the same id: pings are never under way
+            self.assertEqual(client.receive()[0], 0x8000 + 10)
+            client.send("frame", {"width": 8, "height": 8, "channel": 1}, request=request)
+            kind, _, info, _ = client.receive()
+            self.assertEqual((kind, info["code"]), (0x8000, "bad_request"))
+            self.assertEqual(client.wait(request)[0]["views"][0]["width"], 512)
+            self.assertEqual(client.wait(client.send("frame", {"width": 8, "height": 8}, request=request))[0]["channel"], 0)
+
     def test_cancel(self):
         with self.server.client() as client:
             client.load_scene("small.toml", private=True, set=["photon_map.generations=40",
@@ -254,6 +266,47 @@ class Ending(unittest.TestCase):
             self.assertEqual(caught.exception.code, "shutting_down")
         self.assertEqual(server.stop(), 0)
         self.assertLess(time.monotonic() - started, 15)
+
+    def check_shut_down(self, server, client, request):
+        """SIGTERM: the request fails as it should, and the server ends soon although it is in the middle of it."""
+        server.process.terminate()
+        with self.assertRaises(ServiceError) as caught:
+            client.wait(request)
+        self.assertEqual(caught.exception.code, "shutting_down")
+        self.assertEqual(server.stop(10), 0)
+        self.assertEqual([event for event in server.log if event.get("level") == "error"], [])
+
+    def test_while_the_default_scene_loads(self):
+        server = Server(LUMULUS, scene=LARGE_SCENE, wait=False)
+        server.event("scene_loading")
+        self.assertEqual(server.stop(10), 0)
+        self.assertEqual(server.log[-1]["event"], "stopped")
+
+    def test_gives_up_a_scene(self):
+        server = Server(LUMULUS)
+        with server.client() as client:
+            request = client.send("load_scene", payload=LARGE_SCENE.encode())
+            server.event("scene_loading")
+            self.check_shut_down(server, client, request)
+
+    def test_fails_what_takes_too_long(self):
+        server = Server(LUMULUS, limits="shutdown_seconds = 0.2")
+        with server.client() as client:
+            client.frame(width=16, height=16)
+            request = client.send("frame", {"width": 3300, "height": 2500})
+            time.sleep(0.5)
+            self.check_shut_down(server, client, request)
+
+    def test_fails_a_picture_in_fog(self):
+        fog = 'cloud = []\n[fog]\nfilter = "gather"\n[[fog.media]]\nkind = "homogeneous"\nvisibility = 300\n'
+        server = Server(LUMULUS, limits="shutdown_seconds = 0.2")
+        with server.client() as client:
+            client.load_scene(toml=fog)
+            width, height = 400, 300
+            picture = numpy.ones(width * height * 3, "f").tobytes() + numpy.full(width * height, 500, "f").tobytes()
+            request = client.send("composite", {"width": width, "height": height}, picture)
+            time.sleep(0.5)
+            self.check_shut_down(server, client, request)
 
 
 if __name__ == "__main__":

@@ -29,7 +29,7 @@ class Page(unittest.TestCase):
         self.profile = tempfile.TemporaryDirectory()
         self.driver = browser(self.profile.name, 900, 600)
         self.addCleanup(self.profile.cleanup)
-        self.addCleanup(lambda: self.server.stop())
+        self.addCleanup(lambda: self.assertEqual(self.server.stop(), 0))
         self.addCleanup(self.driver.quit)
         self.driver.get(f"http://{self.server.http}/")
 
@@ -99,7 +99,7 @@ class Page(unittest.TestCase):
 class Phone(unittest.TestCase):
     def test_fits_a_small_screen(self):
         server = Server(LUMULUS)
-        self.addCleanup(server.stop)
+        self.addCleanup(lambda: self.assertEqual(server.stop(), 0))
         with tempfile.TemporaryDirectory() as profile:
             driver = browser(profile, 390, 844)
             self.addCleanup(driver.quit)

@@ -171,12 +171,54 @@ TEST_F(SchedulerTest, WaitsForTheScene) {
     EXPECT_EQ(next(), 10U);
 }
 
-TEST_F(SchedulerTest, ClearsEverything) {
-    scheduler.submit(frame(1, 10));
+TEST_F(SchedulerTest, AFrameTakesThePlaceOfAStreamsAndNotOfTheStream) {
+    scheduler.startStream(1, 7, stream(10, true), now);
+    const auto first = take();
+    ASSERT_TRUE(first && first->stream);
+    EXPECT_TRUE(scheduler.putBack(*first));
+    EXPECT_THAT(scheduler.submit(frame(1, 10)), IsEmpty());  // nobody is told
+    EXPECT_EQ(next(), 10U);
+    now += milliseconds(100);
+    const auto second = take();
+    ASSERT_TRUE(second && second->stream);  // nothing changed, but it was never seen
+    scheduler.submit(frame(1, 11));
+    EXPECT_FALSE(scheduler.putBack(*second));
+    scheduler.leaveOut(*second);
+    EXPECT_EQ(next(), 11U);
+    now += milliseconds(100);
+    EXPECT_EQ(next(), 7U);
+    now += milliseconds(100);
+    EXPECT_EQ(next(), 0U);
+}
+
+TEST_F(SchedulerTest, NobodyWaitsForTheFrameOfAStreamThatWasStopped) {
+    scheduler.startStream(1, 7, stream(10, false), now);
+    const auto job = take();
+    ASSERT_TRUE(job);
+    EXPECT_TRUE(scheduler.stopStream(1, 7));
+    EXPECT_FALSE(scheduler.done(*job));
+}
+
+TEST_F(SchedulerTest, EverythingEndsInParts) {
+    for (const std::uint64_t id : {10U, 11U, 12U, 13U}) {
+        const bool begins = id != 11U || take().has_value();  // 10 is under way
+        ASSERT_TRUE(begins);
+        scheduler.submit(frame(1, id, 0, true));
+    }
     scheduler.startStream(2, 7, stream(10, false), now);
-    EXPECT_TRUE(scheduler.hasQueued());
-    EXPECT_EQ(scheduler.clear().size(), 2U);
+    const auto streamed = take();
+    ASSERT_TRUE(streamed && streamed->stream);
+    EXPECT_TRUE(scheduler.putBack(*streamed));
+    EXPECT_EQ(scheduler.endStreams().size(), 1U);
+    EXPECT_EQ(scheduler.streams(), 0U);
+    EXPECT_EQ(scheduler.takeQueued().size(), 3U);
     EXPECT_FALSE(scheduler.hasQueued());
+    const std::vector<Job> current = scheduler.takeCurrent();
+    ASSERT_EQ(current.size(), 1U);
+    EXPECT_EQ(current[0].id, 10U);
+    EXPECT_TRUE(current[0].cancelled->load());
+    EXPECT_FALSE(scheduler.done(current[0]));
+    EXPECT_FALSE(scheduler.putBack(current[0]));
     EXPECT_EQ(next(), 0U);
 }
 

@@ -40,7 +40,7 @@ class Server:
     """A running server: `folder` (with scenes/ and uploads/), `tcp`, `http`, `log` (its events)."""
 
     def __init__(self, lumulus=LUMULUS, scene=SCENE, limits="", security="", listen="", folder=None, ports=(0, 0), env=None,
-                 preexec=None):
+                 preexec=None, wait=True):
         self.folder = folder or tempfile.mkdtemp(prefix="lumulus-service-")
         self.owns = folder is None
         os.makedirs(os.path.join(self.folder, "scenes"), exist_ok=True)
@@ -65,6 +65,11 @@ default = "small.toml"
                                         env=env, preexec_fn=preexec)
         self.reader = threading.Thread(target=self._read, daemon=True)
         self.reader.start()
+        if wait:
+            self.listen()
+
+    def listen(self):
+        """Waits until it does."""
         listening = self.event("listening", 120)
         self.tcp, self.http = listening["frames"][0], listening["http"]
 
@@ -83,6 +88,7 @@ default = "small.toml"
         while True:
             event = self.events.get(timeout=seconds)
             if event is None:
+                self.events.put(None)
                 raise AssertionError(f"the server ended: {self.log}")
             if event["event"] == name:
                 return event

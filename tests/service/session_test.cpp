@@ -44,6 +44,15 @@ TEST_F(SessionTest, HelloOpensTheDoor) {
     EXPECT_EQ(codeOf(hello()), "bad_request");
 }
 
+TEST_F(SessionTest, AnIdIsNotZero) {
+    hello();
+    Message ping = request(MessageType::ping, "");
+    ping.id = 0;
+    const auto result = send(ping);
+    EXPECT_EQ(codeOf(result), "bad_request");
+    EXPECT_FALSE(result.close);
+}
+
 TEST_F(SessionTest, NothingButHelloComesFirst) {
     for (const Message& message : test::validMessages()) {
         if (message.type == MessageType::hello) continue;

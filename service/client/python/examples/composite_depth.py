@@ -1,15 +1,13 @@
 #!/usr/bin/env python3
-"""Puts a ground plane, drawn here, into the scene's medium: composite_depth.py FILE.png"""
+"""Puts a ground plane, drawn here, into the scene's medium: composite_depth.py FILE, a .png, .jpg or .exr"""
 
-import argparse
 import array
 import math
 import os
-import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from lumulus_client import Client
+from common import connect, parser, save
 
+ENCODINGS = {".png": "png", ".jpg": "jpeg", ".exr": "exr"}
 FAR = 20000.0  # metres, where the sky begins
 
 
@@ -34,21 +32,20 @@ def ground_plane(width, height, fov, eye_height):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("file")
-    parser.add_argument("--address", default="127.0.0.1:7788")
-    parser.add_argument("--visibility", type=float, default=1500.0, help="metres")
-    parser.add_argument("--width", type=int, default=320)
-    parser.add_argument("--height", type=int, default=180)
-    options = parser.parse_args()
+    arguments = parser(__doc__, target="file", width=320, height=180)
+    arguments.add_argument("--visibility", type=float, default=1500.0, help="metres")
+    options = arguments.parse_args()
+    suffix = os.path.splitext(options.file)[1]
+    if suffix not in ENCODINGS:
+        arguments.error(f"{options.file}: end its name in one of {', '.join(ENCODINGS)}")
     fog = f'cloud = []\n[[fog.media]]\nkind = "homogeneous"\nvisibility = {options.visibility}\n'
     color, depth = ground_plane(options.width, options.height, 40.0, 20.0)
-    with Client(options.address, name="composite") as client:
+    with connect(options, "composite") as client:
         client.load_scene(toml=fog)
-        frame = client.composite(color.tobytes(), depth.tobytes(), options.width, options.height, encoding="png",
+        frame = client.composite(color.tobytes(), depth.tobytes(), options.width, options.height,
+                                 encoding=ENCODINGS[suffix],
                                  camera={"position": [0, 20, 0], "target": [0, 20, -1], "vertical_fov": 40})
-        with open(options.file, "wb") as file:
-            file.write(frame.file())
+        save(frame, options.file)
 
 
 if __name__ == "__main__":
