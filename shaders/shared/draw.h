@@ -87,6 +87,7 @@ struct DrawPush {
 const int LIST_WIDTH = 4096;
 
 /// A homogeneous sphere that stands for a leaf: its extinction mass is the leaf's, whatever the radius.
+/// Two texels of an image: centre and radius; extinction and sunDepth.
 struct Billboard {
     vec3 centre;
     float radius;
@@ -144,7 +145,6 @@ static_assert(sizeof(FieldParams) == 152 && offsetof(FieldParams, sunOffset) == 
 static_assert(sizeof(LatticeParams) == 28 && offsetof(LatticeParams, depthTolerance) == 24);
 static_assert(sizeof(DrawParams) == 332 && offsetof(DrawParams, samples) == 328);
 static_assert(sizeof(DrawPush) == 20 && offsetof(DrawPush, count) == 12);
-static_assert(sizeof(Billboard) == 24 && offsetof(Billboard, sunDepth) == 20);
 static_assert(sizeof(Pixel) == 48 && offsetof(Pixel, front) == 44);
 static_assert(sizeof(SunDepthPush) == 80 && offsetof(SunDepthPush, firstRow) == 76);
 static_assert(sizeof(CollectorSunPush) == 64 && offsetof(CollectorSunPush, collectors) == 60);

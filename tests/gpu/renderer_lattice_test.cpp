@@ -34,21 +34,37 @@ double value(const LayeredImage& image, const std::string& layer, std::size_t i)
     return static_cast<double>(image.layers.at(layer)[i]);
 }
 
-struct Difference {
-    double rms = 0.0, most = 0.0;  ///< against the rms of the second picture
-};
-
-Difference difference(const LayeredImage& a, const LayeredImage& b, const std::string& layer) {
-    Difference found;
-    double norm = 0.0;
+/// Of a layer, against the rms of the second picture.
+double difference(const LayeredImage& a, const LayeredImage& b, const std::string& layer) {
+    double squares = 0.0, norm = 0.0;
     for (std::size_t i = 0; i < a.pixels(); ++i) {
-        const double d = value(a, layer, i) - value(b, layer, i);
-        found.rms += d * d;
-        found.most = std::max(found.most, std::abs(d));
+        squares += std::pow(value(a, layer, i) - value(b, layer, i), 2);
         norm += std::pow(value(b, layer, i), 2);
     }
-    const double scale = std::sqrt(norm / static_cast<double>(a.pixels()));
-    return {std::sqrt(found.rms / norm), found.most / scale};
+    return std::sqrt(squares / norm);
+}
+
+/// The largest value at most two lattice points away, which the tolerance refers to.
+double brightest(const LayeredImage& image, const std::string& layer, int x, int y) {
+    double most = 0.0;
+    for (int v = std::max(y - 8, 0); v <= std::min(y + 8, image.height - 1); ++v)
+        for (int u = std::max(x - 8, 0); u <= std::min(x + 8, image.width - 1); ++u)
+            most = std::max(most, value(image, layer, static_cast<std::size_t>(v * image.width + u)));
+    return most;
+}
+
+/// An eighth of a second difference is the error where the picture is smooth, a half of it at a kink. Of light it is
+/// allowed a part of the brightest, of transmittance half that part of 1.
+void expectWithinTolerance(const LayeredImage& some, const LayeredImage& every, double tolerance) {
+    for (int y = 0; y < every.height; ++y)
+        for (int x = 0; x < every.width; ++x) {
+            const auto i = static_cast<std::size_t>(y * every.width + x);
+            ASSERT_NEAR(value(some, "cloud.G", i), value(every, "cloud.G", i),
+                        0.5 * tolerance * brightest(every, "cloud.G", x, y))
+                << x << " " << y;
+            ASSERT_NEAR(value(some, "transmittance.B", i), value(every, "transmittance.B", i), 0.25 * tolerance)
+                << x << " " << y;
+        }
 }
 
 class Lattice : public testing::TestWithParam<scene::DrawMode> {};
@@ -61,11 +77,11 @@ TEST_P(Lattice, InterpolatedIsTheSamePicture) {
     const scene::Scene scene = closeScene(GetParam());
     const LayeredImage every = drawn(scene, 0.0).image, some = drawn(scene, 0.2).image;
     for (const char* layer : {"R", "cloud.G", "transmittance.B", "A"}) {
-        const Difference found = difference(some, every, layer);
-        EXPECT_GT(found.rms, 0.0) << layer;  // something was interpolated
-        EXPECT_LT(found.rms, 0.01) << layer;
-        EXPECT_LT(found.most, 0.1) << layer;
+        const double found = difference(some, every, layer);
+        EXPECT_GT(found, 0.0) << layer;  // something was interpolated
+        EXPECT_LT(found, 0.01) << layer;
     }
+    expectWithinTolerance(some, every, 0.2);
     const double voxel = 200.0 / 40.0;
     for (std::size_t i = 0; i < every.pixels(); ++i) {
         ASSERT_EQ(value(some, "depth.front", i) >= 1e10, value(every, "depth.front", i) >= 1e10);
@@ -73,12 +89,11 @@ TEST_P(Lattice, InterpolatedIsTheSamePicture) {
     }
 }
 
-/// A quarter of what bends is the most that an interpolation can be wrong by, so less of it makes less error.
 TEST_P(Lattice, LessToleranceIsLessError) {
     const scene::Scene scene = closeScene(GetParam());
     const LayeredImage every = drawn(scene, 0.0).image;
-    const double wide = difference(drawn(scene, 0.4).image, every, "cloud.R").rms;
-    const double narrow = difference(drawn(scene, 0.02).image, every, "cloud.R").rms;
+    const double wide = difference(drawn(scene, 0.4).image, every, "cloud.R");
+    const double narrow = difference(drawn(scene, 0.02).image, every, "cloud.R");
     EXPECT_LT(narrow, 0.5 * wide);
 }
 
@@ -92,11 +107,12 @@ TEST_P(Lattice, TheSunsDiscIsNotSpread) {
     const LayeredImage every = drawn(scene, 0.0).image, some = drawn(scene, 0.4).image;
     std::size_t bright = 0;
     for (std::size_t i = 0; i < every.pixels(); ++i) {
-        const double truth = value(every, "R", i);
-        ASSERT_NEAR(value(some, "R", i), truth, 0.05 * truth + 1e-3) << i;
-        bright += truth > 1000.0 ? 1 : 0;
+        if (value(every, "R", i) < 1000.0) continue;
+        ASSERT_EQ(value(some, "R", i), value(every, "R", i)) << i;
+        ++bright;
     }
-    EXPECT_GT(bright, 10U);
+    EXPECT_GE(bright, 5U);
+    expectWithinTolerance(some, every, 0.4);
 }
 
 TEST(LatticePasses, AreThereOnlyWhereVoxelsAreLarger) {

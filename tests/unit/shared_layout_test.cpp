@@ -117,7 +117,6 @@ TEST(SharedLayout, Draw) {
     EXPECT_LAYOUT(billboards_comp, LatticeParams, first, size, spacing, tolerance, depthTolerance);
     EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, field, lattice, tilesAcross, samples);
     EXPECT_PUSH(billboards_comp, DrawPush, what, first, count);
-    EXPECT_LAYOUT(billboards_comp, Billboard, centre, radius, extinction, sunDepth);
     EXPECT_LAYOUT(billboards_comp, Pixel, radiance, cloud, transmittance, alpha, depth, front);
     EXPECT_PUSH(sun_depth_comp, SunDepthPush, gridToVoxel, originVoxel, inverseSize, grid, step, firstRow);
     EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, scale, depositCells, depositsAcross, depositBase,
