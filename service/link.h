@@ -14,9 +14,8 @@ namespace lumulus::service {
 /// together. A Carrier has
 /// - `executor()`;
 /// - `awaitable<std::span<const std::byte>> read(error_code&)`: what came, valid until the next call;
-/// - `awaitable<std::size_t> write(head, payload, done, error_code&)`: writes some of both together, from byte `done`
-/// on,
-///   and returns how many bytes;
+/// - `awaitable<std::size_t> write(head, payload, done, error_code&)`: writes some of both together, beginning at byte
+///   `done`, and returns how many bytes;
 /// - `close()`: ends what waits for either.
 template <class Carrier>
 class Link : public std::enable_shared_from_this<Link<Carrier>> {

@@ -46,6 +46,10 @@ class Server {
             if (!error && !finishing_.joinable()) shutDown();
         });
         io_.run();
+        // all that is left is to end: another signal does not make a failure of it
+        signals_.clear();
+        std::signal(SIGINT, SIG_IGN);
+        std::signal(SIGTERM, SIG_IGN);
         logEvent("info", "stopped", nullptr);
     }
 
