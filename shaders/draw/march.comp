@@ -58,7 +58,8 @@ vec2 clipToVolume(ViewLine line) {
 float leaveCells(ViewLine line, inout ivec3 cell, int reach) {
     const ivec3 beyond = cell + mix(ivec3(-reach - 1), ivec3(reach + 1), line.ahead);
     const vec3 face = vec3(cell + mix(ivec3(-reach), ivec3(reach + 1), line.ahead)) * params.field.cellSize;
-    const vec3 distances = (face - line.start) * line.inverse;
+    const vec3 distances =
+        mix((face - line.start) * line.inverse, vec3(3.4e38), equal(line.velocity, vec3(0.0)));
     const float leave = min(distances.x, min(distances.y, distances.z));
     const vec3 end = floor((line.start + line.velocity * leave) / params.field.cellSize);
     cell = mix(clamp(ivec3(end), cell - reach, cell + reach), beyond, equal(distances, vec3(leave)));

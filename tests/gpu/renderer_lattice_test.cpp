@@ -115,6 +115,22 @@ TEST_P(Lattice, TheSunsDiscIsNotSpread) {
     expectWithinTolerance(some, every, 0.4);
 }
 
+/// Rays along an axis of the grid never meet the faces beside them.
+TEST(MarchAlongAnAxis, SeesTheCloud) {
+    scene::Scene scene = closeScene(scene::DrawMode::march);
+    scene.camera.projection = scene::Projection::orthographic;
+    scene.clouds[0].extinction = 0.005;
+    scene.camera.target = dvec3(0.0, 100.0, 0.0);
+    for (const dvec3& from : {dvec3(0.0, 0.0, 1000.0), dvec3(-1000.0, 0.0, 0.0), dvec3(0.0, 1000.0, 0.0)}) {
+        const auto middle = [&](const dvec3& aside) {
+            scene.camera.position = *scene.camera.target + from + aside;
+            return value(drawn(scene, 0.2).image, "transmittance.R", 75 * 200 + 100);
+        };
+        EXPECT_LT(middle(dvec3(0.0)), 0.6);  // about e⁻¹
+        EXPECT_NEAR(middle(dvec3(0.0)), middle(dvec3(0.7, 0.3, 0.5)), 0.01);
+    }
+}
+
 TEST(LatticePasses, AreThereOnlyWhereVoxelsAreLarger) {
     scene::Scene scene = closeScene(scene::DrawMode::march);
     EXPECT_THAT(drawn(scene, 0.2).passes(), testing::Contains("interpolate"));
