@@ -64,7 +64,7 @@ void Renderer::State::recordLight(photon::Part part) {
         showSunDepth(sunAllowed);
     }
     const glm::vec3 eye = eyeVoxel();
-    if (photons && lightEye != eye) {
+    if (photons && (part != photon::Part::all || lightEye != eye)) {
         const photon::Light light = photons->light(part);
         photons->reconstruct(commands, eye, light);
         commands.barrier("collector radiance");

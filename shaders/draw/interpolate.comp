@@ -22,15 +22,27 @@ int pointIndex(ivec2 point) {
     return place.y * params.lattice.size.x + place.x;
 }
 
-/// What is compared: the cloud's light and how much is seen through it; distance and front [m].
+/// What is compared: the cloud's light; how much is seen through it, and of the sky; distance and front [m].
 struct Probe {
-    vec4 light;
+    vec3 light;
+    vec2 seen;
     vec2 distances;
 };
 
+/// Second differences at point `i` of four by four, across and down together.
+Probe bend(Probe around[16], int i) {
+    const Probe here = around[i], left = around[i - 1], right = around[i + 1], above = around[i - 4],
+                below = around[i + 4];
+    return Probe(abs(left.light - 2.0 * here.light + right.light) + abs(above.light - 2.0 * here.light + below.light),
+                 abs(left.seen - 2.0 * here.seen + right.seen) + abs(above.seen - 2.0 * here.seen + below.seen),
+                 abs(left.distances - 2.0 * here.distances + right.distances) +
+                     abs(above.distances - 2.0 * here.distances + below.distances));
+}
+
 Probe probeAt(ivec2 point) {
     const int i = pointIndex(point);
-    return Probe(vec4(points[i].cloud, points[i].transmittance.x), vec2(points[i].depth, points[i].front));
+    return Probe(points[i].cloud, vec2(points[i].transmittance.x, points[i].alpha),
+                 vec2(points[i].depth, points[i].front));
 }
 
 /// Whether the block's picture can be interpolated from the points around it.
@@ -40,20 +52,17 @@ bool isSmooth(ivec2 block) {
     int empty = 0;
     for (int i = 0; i < 16; ++i) {
         around[i] = probeAt(block + ivec2(i & 3, i >> 2) - 1);
-        brightest = max(brightest, around[i].light.rgb);
+        brightest = max(brightest, around[i].light);
         empty += around[i].distances.y >= FAR_DEPTH ? 1 : 0;
     }
     if (empty != 0) return empty == 16;
-    const vec4 most = params.lattice.tolerance * vec4(brightest, 0.5);
+    const float tolerance = params.lattice.tolerance;
     bool smooth_ = true;
     for (int i = 0; i < 4; ++i) {
-        const int at = 5 + (i & 1) + 4 * (i >> 1);
-        const vec4 light = abs(around[at - 1].light - 2.0 * around[at].light + around[at + 1].light) +
-                           abs(around[at - 4].light - 2.0 * around[at].light + around[at + 4].light);
-        const vec2 far = abs(around[at - 1].distances - 2.0 * around[at].distances + around[at + 1].distances) +
-                         abs(around[at - 4].distances - 2.0 * around[at].distances + around[at + 4].distances);
-        smooth_ = smooth_ && all(lessThanEqual(light, most)) &&
-                  all(lessThanEqual(far, vec2(params.lattice.depthTolerance)));
+        const Probe bent = bend(around, 5 + (i & 1) + 4 * (i >> 1));
+        smooth_ = smooth_ && all(lessThanEqual(bent.light, tolerance * brightest)) &&
+                  all(lessThanEqual(bent.seen, vec2(0.5 * tolerance))) &&
+                  all(lessThanEqual(bent.distances, vec2(params.lattice.depthTolerance)));
     }
     return smooth_;
 }

@@ -43,8 +43,9 @@ struct ViewLine {
 };
 
 ViewLine viewLine(vec3 start, vec3 velocity) {
-    const vec3 inverse = 1.0 / mix(velocity, vec3(1.0e-30), lessThan(abs(velocity), vec3(1.0e-30)));
-    return ViewLine(start, velocity, inverse, greaterThan(velocity, vec3(0.0)));
+    const bvec3 aside = lessThan(abs(velocity), vec3(1.0e-30));  // never meets those faces
+    velocity = mix(velocity, vec3(0.0), aside);
+    return ViewLine(start, velocity, 1.0 / mix(velocity, vec3(1.0e-30), aside), greaterThan(velocity, vec3(0.0)));
 }
 
 /// Distances [m] between which the line is in the volume; empty where first >= second.
@@ -68,7 +69,7 @@ float leaveCells(ViewLine line, inout ivec3 cell, int reach) {
 
 void marchCell(inout RayLight ray, SunView sun, ViewLine line, vec2 span, float majorant, float offset) {
     const float length_ = span.y - span.x;
-    const float growth = min(exp(GROWTH * params.light.decay.x * ray.depth), MOST_GROWTH);
+    const float growth = min(exp(GROWTH * leastDecay() * ray.depth), MOST_GROWTH);
     const float steps =
         ceil(length_ * max(1.0 / params.field.voxelLength, majorant / STEP_THICKNESS) / growth);
     const float count = clamp(steps, 1.0, 512.0);

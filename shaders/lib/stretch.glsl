@@ -18,11 +18,14 @@ struct RayLight {
 
 RayLight emptyRay() { return RayLight(vec3(0.0), 0.0, 0.0, 0.0, FAR_DEPTH); }
 
-/// True optical depth at which nothing behind can be seen.
-float opaqueDepth() {
+/// Of the colour that is seen deepest.
+float leastDecay() {
     const vec3 decay = params.light.decay;
-    return OPAQUE / max(min(decay.x, min(decay.y, decay.z)), 0.01);
+    return max(min(decay.x, min(decay.y, decay.z)), 0.01);
 }
+
+/// True optical depth at which nothing behind can be seen.
+float opaqueDepth() { return OPAQUE / leastDecay(); }
 
 /// In-scattered radiance per σs' (smooth between collectors); noise below zero is cut off last.
 vec3 inScattered(vec3 voxel) {

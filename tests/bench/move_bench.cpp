@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/stopwatch.h"
+#include "bench/bench_main.h"
 #include "reference/render.h"
 #include "renderer.h"
 #include "scene/load.h"
@@ -115,15 +116,5 @@ void run(const std::string& path, const std::vector<std::string>& overrides) {
 }  // namespace lumulus::bench
 
 int main(int argc, char** argv) {
-    if (argc < 2) {
-        fmt::print(stderr, "usage: move_bench SCENE [section.key=value…]\n");
-        return 2;
-    }
-    try {
-        lumulus::bench::run(argv[1], {argv + 2, argv + argc});
-    } catch (const std::exception& e) {
-        fmt::print(stderr, "move_bench: {}\n", e.what());
-        return 1;
-    }
-    return 0;
+    return lumulus::bench::benchMain("move_bench", argc, argv, lumulus::bench::run);
 }

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/bench_main.h"
 #include "bench/machine_peaks.h"
 #include "bench/plain_walk.h"
 #include "gpu/context.h"
@@ -184,15 +185,5 @@ void run(const std::string& path, const std::vector<std::string>& overrides) {
 }  // namespace lumulus::bench
 
 int main(int argc, char** argv) {
-    if (argc < 2) {
-        fmt::print(stderr, "usage: walk_bench SCENE [section.key=value…]\n");
-        return 2;
-    }
-    try {
-        lumulus::bench::run(argv[1], {argv + 2, argv + argc});
-    } catch (const std::exception& e) {
-        fmt::print(stderr, "walk_bench: {}\n", e.what());
-        return 1;
-    }
-    return 0;
+    return lumulus::bench::benchMain("walk_bench", argc, argv, lumulus::bench::run);
 }

@@ -62,8 +62,9 @@ void expectWithinTolerance(const LayeredImage& some, const LayeredImage& every, 
             ASSERT_NEAR(value(some, "cloud.G", i), value(every, "cloud.G", i),
                         0.5 * tolerance * brightest(every, "cloud.G", x, y))
                 << x << " " << y;
-            ASSERT_NEAR(value(some, "transmittance.B", i), value(every, "transmittance.B", i), 0.25 * tolerance)
-                << x << " " << y;
+            for (const char* layer : {"transmittance.B", "A"})
+                ASSERT_NEAR(value(some, layer, i), value(every, layer, i), 0.25 * tolerance)
+                    << layer << " " << x << " " << y;
         }
 }
 
