@@ -7,18 +7,25 @@ What the path tracer's own pictures have, by half their difference, stands besid
 """
 
 import argparse
-import pathlib
-import sys
+import struct
+import zlib
 
-import numpy
+from measuring import Failure, read_exr, run
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tests" / "cli"))
-from exr_reader import read_exr  # noqa: E402
+try:
+    import numpy
+except ImportError as missing:
+    raise SystemExit(f"large_score.py: {missing}: as root, run apt-get install python3-numpy")
 
 
 def layers_of(path):
-    layers = read_exr(path)[2]
-    return {name: numpy.array(layers[name]) for name in ("R", "G", "B", "transmittance.R")}
+    try:
+        layers = read_exr(path)[2]
+        return {name: numpy.array(layers[name]) for name in ("R", "G", "B", "transmittance.R")}
+    except KeyError as missing:
+        raise Failure(f"{path} has no layer or attribute {missing}")
+    except (OSError, ValueError, IndexError, struct.error, zlib.error) as error:
+        raise Failure(f"{path} is not a whole EXR file of lumulus: {error}")
 
 
 def main():
@@ -29,6 +36,9 @@ def main():
     first, second = (layers_of(path) for path in options.references)
     pictures = {path: layers_of(path) for path in options.pictures}
     scale = next(iter(pictures.values()))
+    for path, layers in [*zip(options.references, (first, second)), *pictures.items()]:
+        if layers["R"].size != scale["R"].size:
+            raise Failure(f"{path} has another size than {options.pictures[0]}")
     cloud = scale["transmittance.R"] < 0.999
     squares = {c: scale[c][cloud] ** 2 + 0.01 * numpy.mean(scale[c][cloud] ** 2) for c in "RGB"}
     tracer = numpy.mean([0.5 * (first[c][cloud] - second[c][cloud]) ** 2 / squares[c] for c in "RGB"])
@@ -41,4 +51,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(main)
