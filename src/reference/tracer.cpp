@@ -193,10 +193,22 @@ glm::dvec3 PathTracer::lampLight(const Vertex& vertex, Random& random) const {
     return light;
 }
 
+/// What the sun's disc adds to a path from `vertex` that escapes into it by chance, less the share of
+/// `sunTransmission`.
+glm::dvec3 PathTracer::sunByChance(const Vertex& vertex) const {
+    const glm::dvec3 disc = discRadiance(vertex.ray.direction);
+    if (largest(disc) == 0.0) return disc;
+    const double expected = response(vertex, vertex.ray.direction) * glm::two_pi<double>() * sunCone_;
+    return disc * (expected / (1.0 + expected));
+}
+
+/// Share of the sun's fluence that goes on along the path, 1/sr, by a shadow ray to a point of the disc: less the share
+/// of `sunByChance`. A point-like sun is met by no chance, and the shadow ray has all of it.
 glm::dvec3 PathTracer::sunTransmission(const Vertex& vertex, double strength, Random& random) const {
     const double oneMinusCos = sunCone_ * random.uniform();
     const glm::dvec3 toSun = sunCone_ > 0.0 ? turned(sunDirection_, oneMinusCos, random) : sunDirection_;
-    double weight = response(vertex, toSun);
+    const double chance = response(vertex, toSun);
+    double weight = chance / (1.0 + chance * glm::two_pi<double>() * sunCone_);
     const double threshold = shadowThreshold / strength;
     if (weight < threshold) {
         if (random.uniform() * threshold >= weight) return glm::dvec3(0.0);
@@ -226,7 +238,7 @@ PathSample PathTracer::trace(const Ray& ray, Random& random) const {
             if (vertex.place == Place::eye) {
                 sample.passed = throughput;
             } else if (isLit(vertex)) {
-                sample.radiance += throughput * sky_;
+                sample.radiance += throughput * (sky_ + sunByChance(vertex));
             }
             return sample;
         }

@@ -38,8 +38,8 @@ struct RayIntegrals {
 
 /// The unbiased path tracer of one cloud, analytic fog and opaque surfaces under the sun and a constant sky: delta
 /// tracking in the cloud and exact free paths in the fog, whichever is nearer, next-event estimation to the sun's disc
-/// at each collision (ratio tracking through the cloud, closed form through the fog), to spheres that give off light
-/// too, weighted against meeting them by chance (Veach 1997, the balance heuristic), the sky where a path escapes, the
+/// at each collision (ratio tracking through the cloud, closed form through the fog) and to spheres that give off light,
+/// both weighted against meeting them by chance (Veach 1997, the balance heuristic), the sky where a path escapes, the
 /// emission of surfaces and fog where a path meets them, any number of scatterings. Immutable; any number of threads
 /// may trace.
 class PathTracer {
@@ -101,6 +101,7 @@ class PathTracer {
     double response(const Vertex& vertex, const glm::dvec3& toLight) const;
     glm::dvec3 emissionAt(const Vertex& vertex, const Event& event) const;
     glm::dvec3 lampLight(const Vertex& vertex, Random& random) const;
+    glm::dvec3 sunByChance(const Vertex& vertex) const;
     glm::dvec3 sunTransmission(const Vertex& vertex, double strength, Random& random) const;
     bool isLit(const Vertex& vertex) const { return vertex.place != Place::fog || inscattering_; }
 
