@@ -23,13 +23,13 @@ double largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-/// Russian roulette by the share of light that was not absorbed; false where the path ends.
-bool survives(glm::dvec3& throughput, double share, Random& random) {
-    if (share < 1.0) {
-        if (random.uniform() >= share) return false;
-        throughput /= share;
+/// Russian roulette with this chance of going on; false where the path ends.
+bool survives(glm::dvec3& throughput, double chance, Random& random) {
+    if (chance < 1.0) {
+        if (random.uniform() >= chance) return false;
+        throughput /= chance;
     }
-    return largest(throughput) > 0.0;
+    return true;
 }
 
 /// The part of the ray within the medium's box and before `limit` metres.
@@ -122,25 +122,25 @@ void PathTracer::arrive(Vertex& vertex, const Event& event) const {
 }
 
 /// The way through the fog to the event: emission on it, and what is left of the throughput at its end (after a
-/// collision with fog, of what that scatters); false where the path ends.
-bool PathTracer::crossFog(const Vertex& vertex, const Event& event, glm::dvec3& radiance, glm::dvec3& throughput,
-                          Random& random) const {
+/// collision with fog, of what that scatters). Returns the share that a collision leaves, 1 without.
+double PathTracer::crossFog(const Vertex& vertex, const Event& event, glm::dvec3& radiance, glm::dvec3& throughput,
+                            Random& random) const {
     radiance += fog_.emitted(vertex.ray, event.metres, throughput, random);
     if (event.place != Place::fog) {
         throughput = fog_.passed(vertex.ray, event.metres, throughput);
-        return true;
+        return 1.0;
     }
     const glm::dvec3 scattered = fog_.scattered(vertex.ray, {event.metres, event.index}, throughput);
     const double share = (scattered.x + scattered.y + scattered.z) / (throughput.x + throughput.y + throughput.z);
     throughput = scattered;
-    return survives(throughput, share, random);
+    return share;
 }
 
-/// What is left after a collision with cloud or surface; false where the path ends.
-bool PathTracer::scatter(const Vertex& vertex, glm::dvec3& throughput, Random& random) const {
+/// What is left after a collision with cloud or surface, and the share that this is of the brightest colour.
+double PathTracer::scatter(const Vertex& vertex, glm::dvec3& throughput) const {
     const glm::dvec3& albedo = vertex.place == Place::surface ? surfaces_[vertex.index].albedo : cloud_->albedo;
     throughput *= albedo;
-    return survives(throughput, largest(albedo), random);
+    return largest(albedo);
 }
 
 /// Towards where the path goes on, drawn by the phase function, or the cosine of a diffuse surface.
@@ -233,7 +233,7 @@ PathSample PathTracer::trace(const Ray& ray, Random& random) const {
     const int limit = fog_.empty() ? collisionLimit : fogCollisionLimit;
     for (int collisions = 0; collisions < limit; ++collisions) {
         const Event event = nextEvent(vertex, throughput, random);
-        if (!fog_.empty() && !crossFog(vertex, event, sample.radiance, throughput, random)) return sample;
+        double share = fog_.empty() ? 1.0 : crossFog(vertex, event, sample.radiance, throughput, random);
         if (event.place == Place::sky) {
             if (vertex.place == Place::eye) {
                 sample.passed = throughput;
@@ -244,11 +244,14 @@ PathSample PathTracer::trace(const Ray& ray, Random& random) const {
         }
         if (event.place == Place::surface) sample.radiance += throughput * emissionAt(vertex, event);
         arrive(vertex, event);
-        if (event.place != Place::fog && !scatter(vertex, throughput, random)) return sample;
+        if (event.place != Place::fog) share = scatter(vertex, throughput);
+        if (!(largest(throughput) > 0.0)) return sample;
         if (sunny_ && isLit(vertex)) {
-            sample.radiance += throughput * sunFluence_ * sunTransmission(vertex, largest(throughput), random);
+            sample.radiance += throughput * sunFluence_ * sunTransmission(vertex, largest(throughput) / share, random);
         }
         if (!lamps_.empty()) sample.radiance += throughput * lampLight(vertex, random);
+        // what is absorbed ends the path, but not before the light that the collision itself gets
+        if (!survives(throughput, share, random)) return sample;
         turn(vertex, random);
     }
     sample.lost = true;

@@ -38,10 +38,10 @@ struct RayIntegrals {
 
 /// The unbiased path tracer of one cloud, analytic fog and opaque surfaces under the sun and a constant sky: delta
 /// tracking in the cloud and exact free paths in the fog, whichever is nearer, next-event estimation to the sun's disc
-/// at each collision (ratio tracking through the cloud, closed form through the fog) and to spheres that give off light,
-/// both weighted against meeting them by chance (Veach 1997, the balance heuristic), the sky where a path escapes, the
-/// emission of surfaces and fog where a path meets them, any number of scatterings. Immutable; any number of threads
-/// may trace.
+/// at each collision (ratio tracking through the cloud, closed form through the fog) and to spheres that give off
+/// light, both weighted against meeting them by chance (Veach 1997, the balance heuristic), the sky where a path
+/// escapes, the emission of surfaces and fog where a path meets them, any number of scatterings. Immutable; any number
+/// of threads may trace.
 class PathTracer {
   public:
     /// `volume` null: a scene without a cloud. `eye`: the fog ends at its `sky_distance` from there.
@@ -94,9 +94,9 @@ class PathTracer {
     Event nextEvent(const Vertex& vertex, const glm::dvec3& throughput, Random& random) const;
     std::optional<double> cloudCollision(const VoxelRay& ray, double limit, Random& random) const;
     void arrive(Vertex& vertex, const Event& event) const;
-    bool crossFog(const Vertex& vertex, const Event& event, glm::dvec3& radiance, glm::dvec3& throughput,
-                  Random& random) const;
-    bool scatter(const Vertex& vertex, glm::dvec3& throughput, Random& random) const;
+    double crossFog(const Vertex& vertex, const Event& event, glm::dvec3& radiance, glm::dvec3& throughput,
+                    Random& random) const;
+    double scatter(const Vertex& vertex, glm::dvec3& throughput) const;
     void turn(Vertex& vertex, Random& random) const;
     double response(const Vertex& vertex, const glm::dvec3& toLight) const;
     glm::dvec3 emissionAt(const Vertex& vertex, const Event& event) const;

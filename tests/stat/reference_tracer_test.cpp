@@ -172,6 +172,29 @@ TEST(PathTracer, RouletteIsUnbiased) {
     EXPECT_NEAR(roulette.mean(), weights.mean(), 4.0 * std::hypot(roulette.standardError(), weights.standardError()));
 }
 
+/// In a dark cloud every path that collides sees the sun, although one in ten goes on: samples are alike, where a
+/// roulette before the light would make nine of ten black (a mean square above 10 times the squared mean).
+TEST(PathTracer, DarkCloudsAreNotNoisy) {
+    const vdb::Volume ball = ballVolume(24, ballRadius);
+    scene::Scene scene = ballScene(20.0, 0.0);
+    scene.sun.irradiance = dvec3(1.0);
+    scene.sun.directionTo = glm::normalize(dvec3(0.3, 0.2, 1.0));
+    scene.clouds[0].albedo = dvec3(0.1);
+    const PathTracer dark(scene, &ball, Majorant::local);
+    scene.clouds[0].albedo = dvec3(1.0, 0.1, 0.1);  // weights instead of a roulette
+    const PathTracer colours(scene, &ball, Majorant::local);
+    Random random(9, 0, 0);
+    RunningMean roulette, weights, squares;
+    for (int i = 0; i < 50'000; ++i) {
+        const double sample = dark.trace(rayBeside(1.0), random).radiance.x;
+        roulette.add(sample);
+        squares.add(sample * sample);
+        weights.add(colours.trace(rayBeside(1.0), random).radiance.y);
+    }
+    EXPECT_NEAR(roulette.mean(), weights.mean(), 4.0 * std::hypot(roulette.standardError(), weights.standardError()));
+    EXPECT_LT(squares.mean(), 4.0 * roulette.mean() * roulette.mean());
+}
+
 /// The faster majorants change nothing but the time.
 TEST(PathTracer, LocalMajorantsAgreeWithTheGlobalOne) {
     vdb::Volume ball = ballVolume(40, ballRadius);
