@@ -75,6 +75,7 @@ PathTracer::PathTracer(const scene::Scene& scene, const vdb::Volume* volume, Maj
     const Medium medium(*volume, cloud.extinction * cloud.densityScale);
     if (medium.maximumDensity() * medium.extinctionScale() <= 0.0) return;
     cloud_.emplace(Cloud{medium, MajorantGrid(medium, majorant), PhaseFunction(cloud.phase), cloud.albedo});
+    if (sunny_) aureole_ = Aureole::of(cloud_->phase, sunDirection_, radius);
 }
 
 std::optional<double> PathTracer::cloudCollision(const VoxelRay& ray, double limit, Random& random) const {
@@ -143,15 +144,11 @@ double PathTracer::scatter(const Vertex& vertex, glm::dvec3& throughput) const {
     return largest(albedo);
 }
 
-/// Towards where the path goes on, drawn by the phase function, or the cosine of a diffuse surface.
-void PathTracer::turn(Vertex& vertex, Random& random) const {
-    if (vertex.place == Place::surface) {
-        vertex.ray.direction = turned(vertex.normal, 1.0 - std::sqrt(random.uniform()), random);
-    } else {
-        const PhaseFunction& phase = vertex.place == Place::fog ? fog_.phase(vertex.index) : cloud_->phase;
-        vertex.ray.direction = turned(vertex.arrived, phase.sample(random), random);
-    }
-    if (cloud_) vertex.voxel.step = cloud_->medium.stepOf(vertex.ray.direction);
+/// Where the path goes on to by chance: drawn by the phase function, or the cosine of a diffuse surface.
+glm::dvec3 PathTracer::turn(const Vertex& vertex, Random& random) const {
+    if (vertex.place == Place::surface) return turned(vertex.normal, 1.0 - std::sqrt(random.uniform()), random);
+    const PhaseFunction& phase = vertex.place == Place::fog ? fog_.phase(vertex.index) : cloud_->phase;
+    return turned(vertex.arrived, phase.sample(random), random);
 }
 
 /// Share of light that goes on along the path, 1/sr: a phase function, or cosine over π. It is also the density with
@@ -164,11 +161,37 @@ double PathTracer::response(const Vertex& vertex, const glm::dvec3& toLight) con
     return phase.evaluate(oneMinusCosBetween(vertex.arrived, toLight));
 }
 
+/// Paths that go on from the vertex into a direction, 1/sr: by chance, and as branches to the aureole.
+double PathTracer::density(const Vertex& vertex, const glm::dvec3& direction) const {
+    return response(vertex, direction) + (aureole_ ? aureole_->density(direction) : 0.0);
+}
+
+/// Turns the path into a direction that was drawn by chance or as a branch. Both share what is scattered there by the
+/// balance heuristic, so that weights never grow; where more paths go than light is expected from, Russian roulette
+/// thins them out to weights of one over the importance. False where the path ends.
+bool PathTracer::head(Path& path, const glm::dvec3& direction, Random& random) const {
+    Vertex& vertex = path.vertex;
+    if (aureole_) {
+        path.throughput *= response(vertex, direction) / density(vertex, direction);
+        if (!survives(path.throughput, largest(path.throughput) * aureole_->importance(direction), random))
+            return false;
+    }
+    vertex.ray.direction = direction;
+    if (cloud_) vertex.voxel.step = cloud_->medium.stepOf(direction);
+    return true;
+}
+
+/// Sends a branch of the path, which has scattered, to the aureole.
+void PathTracer::branch(const Path& path, std::vector<Path>& branches, Random& random) const {
+    Path other = path;
+    if (head(other, aureole_->sample(random), random)) branches.push_back(other);
+}
+
 /// What the surface gives off that a path from `vertex` meets by chance, less the share of `lampLight`.
 glm::dvec3 PathTracer::emissionAt(const Vertex& vertex, const Event& event) const {
     const glm::dvec3& emission = surfaces_[event.index].emission;
     if (lamps_.empty() || vertex.place == Place::eye) return emission;
-    const double chance = response(vertex, vertex.ray.direction);
+    const double chance = density(vertex, vertex.ray.direction);
     const double aimed = lamps_.density(vertex.ray.origin, event.index);
     return chance > 0.0 ? emission * (chance / (chance + aimed)) : glm::dvec3(0.0);
 }
@@ -183,7 +206,7 @@ glm::dvec3 PathTracer::lampLight(const Vertex& vertex, Random& random) const {
     const Ray shadow{point, lamp->direction};
     const std::optional<SurfaceHit> hit = surfaces_.nearest(shadow, vertex.surface());
     if (!hit || hit->surface != lamp->surface) return glm::dvec3(0.0);
-    double weight = chance / (chance + lamp->density);
+    double weight = chance / (density(vertex, lamp->direction) + lamp->density);
     if (cloud_) {
         const VoxelRay voxel{vertex.voxel.origin, cloud_->medium.stepOf(lamp->direction)};
         weight = ratioTrack(cloud_->medium, cloud_->majorants, voxel, random, weight, 0.0, hit->metres);
@@ -198,7 +221,7 @@ glm::dvec3 PathTracer::lampLight(const Vertex& vertex, Random& random) const {
 glm::dvec3 PathTracer::sunByChance(const Vertex& vertex) const {
     const glm::dvec3 disc = discRadiance(vertex.ray.direction);
     if (largest(disc) == 0.0) return disc;
-    const double expected = response(vertex, vertex.ray.direction) * glm::two_pi<double>() * sunCone_;
+    const double expected = density(vertex, vertex.ray.direction) * glm::two_pi<double>() * sunCone_;
     return disc * (expected / (1.0 + expected));
 }
 
@@ -207,8 +230,7 @@ glm::dvec3 PathTracer::sunByChance(const Vertex& vertex) const {
 glm::dvec3 PathTracer::sunTransmission(const Vertex& vertex, double strength, Random& random) const {
     const double oneMinusCos = sunCone_ * random.uniform();
     const glm::dvec3 toSun = sunCone_ > 0.0 ? turned(sunDirection_, oneMinusCos, random) : sunDirection_;
-    const double chance = response(vertex, toSun);
-    double weight = chance / (1.0 + chance * glm::two_pi<double>() * sunCone_);
+    double weight = response(vertex, toSun) / (1.0 + density(vertex, toSun) * glm::two_pi<double>() * sunCone_);
     const double threshold = shadowThreshold / strength;
     if (weight < threshold) {
         if (random.uniform() * threshold >= weight) return glm::dvec3(0.0);
@@ -224,35 +246,44 @@ glm::dvec3 PathTracer::sunTransmission(const Vertex& vertex, double strength, Ra
     return weight * fog_.transmittance(shadow, std::numeric_limits<double>::infinity());
 }
 
+/// To the next event and beyond it: light that is met there is added to the sample. False where the path ends.
+bool PathTracer::step(Path& path, PathSample& sample, std::vector<Path>& branches, Random& random) const {
+    auto& [vertex, throughput] = path;
+    const Event event = nextEvent(vertex, throughput, random);
+    double share = fog_.empty() ? 1.0 : crossFog(vertex, event, sample.radiance, throughput, random);
+    if (event.place == Place::sky) {
+        if (vertex.place == Place::eye) {
+            sample.passed = throughput;
+        } else if (isLit(vertex)) {
+            sample.radiance += throughput * (sky_ + sunByChance(vertex));
+        }
+        return false;
+    }
+    if (event.place == Place::surface) sample.radiance += throughput * emissionAt(vertex, event);
+    arrive(vertex, event);
+    if (event.place != Place::fog) share = scatter(vertex, throughput);
+    if (!(largest(throughput) > 0.0)) return false;
+    if (sunny_ && isLit(vertex)) {
+        sample.radiance += throughput * sunFluence_ * sunTransmission(vertex, largest(throughput) / share, random);
+    }
+    if (!lamps_.empty()) sample.radiance += throughput * lampLight(vertex, random);
+    if (aureole_) branch(path, branches, random);
+    // what is absorbed ends the path, but not before the light that the collision itself gets
+    return survives(throughput, share, random) && head(path, turn(vertex, random), random);
+}
+
 PathSample PathTracer::trace(const Ray& ray, Random& random) const {
     PathSample sample;
-    glm::dvec3 throughput(1.0);
-    Vertex vertex;
-    vertex.ray = ray;
-    if (cloud_) vertex.voxel = cloud_->medium.toVoxel(ray);
+    Path path;
+    path.vertex.ray = ray;
+    if (cloud_) path.vertex.voxel = cloud_->medium.toVoxel(ray);
+    std::vector<Path> branches;
     const int limit = fog_.empty() ? collisionLimit : fogCollisionLimit;
     for (int collisions = 0; collisions < limit; ++collisions) {
-        const Event event = nextEvent(vertex, throughput, random);
-        double share = fog_.empty() ? 1.0 : crossFog(vertex, event, sample.radiance, throughput, random);
-        if (event.place == Place::sky) {
-            if (vertex.place == Place::eye) {
-                sample.passed = throughput;
-            } else if (isLit(vertex)) {
-                sample.radiance += throughput * (sky_ + sunByChance(vertex));
-            }
-            return sample;
-        }
-        if (event.place == Place::surface) sample.radiance += throughput * emissionAt(vertex, event);
-        arrive(vertex, event);
-        if (event.place != Place::fog) share = scatter(vertex, throughput);
-        if (!(largest(throughput) > 0.0)) return sample;
-        if (sunny_ && isLit(vertex)) {
-            sample.radiance += throughput * sunFluence_ * sunTransmission(vertex, largest(throughput) / share, random);
-        }
-        if (!lamps_.empty()) sample.radiance += throughput * lampLight(vertex, random);
-        // what is absorbed ends the path, but not before the light that the collision itself gets
-        if (!survives(throughput, share, random)) return sample;
-        turn(vertex, random);
+        if (step(path, sample, branches, random)) continue;
+        if (branches.empty()) return sample;
+        path = branches.back();
+        branches.pop_back();
     }
     sample.lost = true;
     return sample;

@@ -4,7 +4,9 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <optional>
+#include <vector>
 
+#include "reference/aureole.h"
 #include "reference/fog.h"
 #include "reference/lamps.h"
 #include "reference/majorant.h"
@@ -84,6 +86,12 @@ class PathTracer {
         std::size_t surface() const { return place == Place::surface ? index : Surfaces::none; }
     };
 
+    /// A path on its way.
+    struct Path {
+        Vertex vertex;
+        glm::dvec3 throughput{1.0};
+    };
+
     /// What a path meets next; infinitely far where that is the sky.
     struct Event {
         Place place = Place::sky;
@@ -97,8 +105,12 @@ class PathTracer {
     double crossFog(const Vertex& vertex, const Event& event, glm::dvec3& radiance, glm::dvec3& throughput,
                     Random& random) const;
     double scatter(const Vertex& vertex, glm::dvec3& throughput) const;
-    void turn(Vertex& vertex, Random& random) const;
+    glm::dvec3 turn(const Vertex& vertex, Random& random) const;
     double response(const Vertex& vertex, const glm::dvec3& toLight) const;
+    double density(const Vertex& vertex, const glm::dvec3& direction) const;
+    bool head(Path& path, const glm::dvec3& direction, Random& random) const;
+    void branch(const Path& path, std::vector<Path>& branches, Random& random) const;
+    bool step(Path& path, PathSample& sample, std::vector<Path>& branches, Random& random) const;
     glm::dvec3 emissionAt(const Vertex& vertex, const Event& event) const;
     glm::dvec3 lampLight(const Vertex& vertex, Random& random) const;
     glm::dvec3 sunByChance(const Vertex& vertex) const;
@@ -106,6 +118,7 @@ class PathTracer {
     bool isLit(const Vertex& vertex) const { return vertex.place != Place::fog || inscattering_; }
 
     std::optional<Cloud> cloud_;
+    std::optional<Aureole> aureole_;
     Fog fog_;
     Surfaces surfaces_;
     Lamps lamps_;

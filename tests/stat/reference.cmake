@@ -1,5 +1,6 @@
 lumulus_test(reference_slab_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_slab_test.cpp LINK lumulus_reference)
 lumulus_test(reference_tracer_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_tracer_test.cpp LINK lumulus_reference)
+lumulus_test(reference_sun_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_sun_test.cpp LINK lumulus_reference)
 lumulus_test(reference_render_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_render_test.cpp
              LINK lumulus_reference TBB::tbb)
 lumulus_test(reference_fog_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_fog_test.cpp LINK lumulus_reference)

@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <vector>
+
+#include "reference/aureole.h"
+#include "reference/tracer.h"
+#include "stat/ball.h"
+#include "support/statistics.h"
+
+namespace lumulus::reference {
+namespace {
+
+using glm::dvec3;
+using test::RunningMean;
+
+constexpr double ballRadius = 10.0;
+
+/// A white ball under a sun of irradiance 1 and this diameter in degrees, 12° beside where `rayBeside` goes.
+scene::Scene ballScene(double tau, double g, double diameter) {
+    scene::Scene scene;
+    scene.clouds.resize(1);
+    scene.clouds[0].extinction = tau / (2.0 * ballRadius);
+    scene.clouds[0].phase.g = g;
+    scene.sun.irradiance = dvec3(1.0);
+    scene.sun.directionTo = dvec3(std::sin(glm::radians(12.0)), 0.0, -std::cos(glm::radians(12.0)));
+    scene.sun.angularDiameter = diameter;
+    scene.sky.radiance = dvec3(0.0);
+    return scene;
+}
+
+/// From +Z, `b` beside the middle of the ball.
+Ray rayBeside(double b) {
+    return {{b, 0.0, 50.0}, {0.0, 0.0, -1.0}};
+}
+
+/// The same light by chance alone: a path turns as the phase function has it until it escapes, into the disc or not. No
+/// shadow rays, no weights, no branches, no roulette.
+double byChance(const scene::Scene& scene, const Medium& medium, const MajorantGrid& majorants, const Ray& start,
+                Random& random) {
+    const PhaseFunction phase(scene.clouds[0].phase);
+    Ray ray = start;
+    for (bool scattered = false;; scattered = true) {
+        const VoxelRay voxel = medium.toVoxel(ray);
+        const std::optional<Interval> inside = medium.clip(voxel);
+        std::optional<double> collision;
+        if (inside) {
+            majorants.walk(voxel, *inside, random, [&](double t, double majorant) {
+                if (random.uniform() * majorant < medium.extinctionScale() * medium.density(voxel.at(t))) collision = t;
+                return collision.has_value();
+            });
+        }
+        if (!collision) {
+            const double radius = glm::radians(0.5 * scene.sun.angularDiameter);
+            const bool hit = oneMinusCosBetween(ray.direction, scene.sun.directionTo) < 1.0 - std::cos(radius);
+            return scattered && hit ? 1.0 / (glm::pi<double>() * std::pow(std::sin(radius), 2)) : 0.0;
+        }
+        ray.origin += *collision * ray.direction;
+        ray.direction = turned(ray.direction, phase.sample(random), random);
+    }
+}
+
+struct Case {
+    const char* name;
+    double g, diameter;
+};
+
+class SunThroughABall : public testing::TestWithParam<Case> {};
+
+/// Shadow rays, escapes into the disc and branches to the aureole add up to what escapes alone find.
+TEST_P(SunThroughABall, AgreesWithEscapesAlone) {
+    const scene::Scene scene = ballScene(4.0, GetParam().g, GetParam().diameter);
+    const vdb::Volume ball = ballVolume(18, ballRadius);
+    const PathTracer tracer(scene, &ball, Majorant::local);
+    const Medium medium(ball, scene.clouds[0].extinction);
+    const MajorantGrid majorants(medium, Majorant::local);
+    Random random(21, 0, 0);
+    RunningMean weighted, chance;
+    for (int i = 0; i < 30'000; ++i) weighted.add(tracer.trace(rayBeside(2.0), random).radiance.y);
+    for (int i = 0; i < 600'000; ++i) chance.add(byChance(scene, medium, majorants, rayBeside(2.0), random));
+    EXPECT_NEAR(weighted.mean(), chance.mean(), 4.0 * std::hypot(weighted.standardError(), chance.standardError()));
+    EXPECT_LT(chance.standardError(), 0.02 * chance.mean());
+    EXPECT_LT(weighted.standardError(), 0.02 * weighted.mean());
+}
+
+INSTANTIATE_TEST_SUITE_P(Lobes, SunThroughABall,
+                         testing::Values(Case{"WideLobeWideSun", 0.6, 30.0}, Case{"NarrowLobeWideSun", 0.99, 10.0},
+                                         Case{"LobeAsWideAsTheSun", 0.95, 6.0}, Case{"WideLobeNarrowSun", 0.85, 6.0}),
+                         [](const testing::TestParamInfo<Case>& row) { return std::string(row.param.name); });
+
+}  // namespace
+}  // namespace lumulus::reference
