@@ -89,5 +89,52 @@ INSTANTIATE_TEST_SUITE_P(Lobes, SunThroughABall,
                                          Case{"LobeAsWideAsTheSun", 0.95, 6.0}, Case{"WideLobeNarrowSun", 0.85, 6.0}),
                          [](const testing::TestParamInfo<Case>& row) { return std::string(row.param.name); });
 
+/// The lobe is as high as the phase function, if that is narrow and wider than the sun.
+TEST(Aureole, HasThePeakOfThePhaseFunction) {
+    const dvec3 sun = glm::normalize(dvec3(1.0, 2.0, -0.5));
+    for (const scene::Phase& phase :
+         {scene::Phase{scene::PhaseModel::henyeyGreenstein, 0.85, 20.0},
+          scene::Phase{scene::PhaseModel::henyeyGreenstein, 0.9999, 20.0},
+          scene::Phase{scene::PhaseModel::schlick, 0.9, 20.0}, scene::Phase{scene::PhaseModel::droplet, 0.0, 20.0}}) {
+        const PhaseFunction function(phase);
+        const std::optional<Aureole> aureole = Aureole::of(function, sun, 0.0);
+        ASSERT_TRUE(aureole);
+        EXPECT_NEAR(aureole->density(sun) / function.evaluate(0.0), 1.0, 1e-9);
+        EXPECT_NEAR(aureole->importance(sun), 1.0 + 4.0 * glm::pi<double>() * aureole->density(sun), 1e-9);
+        const std::optional<Aureole> ofAWideSun = Aureole::of(function, sun, 0.2);
+        ASSERT_TRUE(ofAWideSun);
+        EXPECT_NEAR(ofAWideSun->density(sun), 1.8 / (4.0 * glm::pi<double>() * 0.04), 1e-9);
+    }
+    EXPECT_FALSE(Aureole::of(PhaseFunction({scene::PhaseModel::henyeyGreenstein, 0.6, 20.0}), sun, 0.0));
+    EXPECT_FALSE(Aureole::of(PhaseFunction({scene::PhaseModel::henyeyGreenstein, 0.99, 20.0}), sun, 0.5));
+}
+
+/// Branches are drawn as densely as `density` says, about the sun: a χ² test over 30 bins of 1 − cos.
+TEST(Aureole, BranchesGoWhereTheDensitySays) {
+    const dvec3 sun = glm::normalize(dvec3(-0.3, 0.4, 0.8));
+    const std::optional<Aureole> aureole =
+        Aureole::of(PhaseFunction({scene::PhaseModel::droplet, 0.0, 20.0}), sun, 0.0);
+    ASSERT_TRUE(aureole);
+    constexpr int bins = 30, samples = 100'000, steps = 400;
+    const auto edge = [](int i) { return i == 0 ? 0.0 : 2.0 * std::pow(1e-6, 1.0 - static_cast<double>(i) / bins); };
+    std::vector<double> observed(bins), expected(bins);
+    Random random(22, 0, 0);
+    for (int i = 0; i < samples; ++i) {
+        const double x = oneMinusCosBetween(sun, aureole->sample(random));
+        int at = 0;
+        while (at + 1 < bins && x >= edge(at + 1)) ++at;
+        observed[static_cast<std::size_t>(at)] += 1.0;
+    }
+    for (int i = 0; i < bins; ++i) {
+        for (int k = 0; k < steps; ++k) {
+            const double x = edge(i) + (edge(i + 1) - edge(i)) * (k + 0.5) / steps;
+            const dvec3 direction = turned(sun, x, random);
+            expected[static_cast<std::size_t>(i)] +=
+                samples * 2.0 * glm::pi<double>() * aureole->density(direction) * (edge(i + 1) - edge(i)) / steps;
+        }
+    }
+    EXPECT_LT(test::chiSquareDeviation(observed, expected), 4.0);
+}
+
 }  // namespace
 }  // namespace lumulus::reference
