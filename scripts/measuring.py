@@ -86,10 +86,12 @@ class Lumulus:
         return {**json.loads(said), "rss_bytes": used.ru_maxrss * 1024}
 
     def reference(self, scene, output, sets=(), spp=64, seed=101):
-        """By the faster majorant. A picture that is there already is kept."""
-        if not output.exists():
+        """By the faster majorant. A picture that is there already is gone on with up to these samples, or, without its
+        sums, kept."""
+        sums = output.with_name(output.name + ".sums")
+        if sums.exists() or not output.exists():
             output_of(self.program, "reference", *self._scene_words(scene, sets), "-o", output, "--spp", spp,
-                      "--majorant", "local", "--seed", seed, "--quiet")
+                      "--majorant", "local", "--seed", seed, "--resume", "--quiet")
         return output
 
     def compare(self, picture, *truths, words=()):
