@@ -2,7 +2,8 @@
 """Scores of the quality presets in every shipped scene, or from cameras and under suns that are in none (--unseen):
 relMSE and bias against two independent references (which frees them of the references' noise), with the angle between the
 view and the direction to the sun, and whether the goals are met. References that are in the folder already are
-gone on with where they have fewer samples. Markdown on stdout.
+gone on with where they have fewer samples. Give them 256 or more: relative errors are divided by the references' squares,
+whose noise adds about 1.5 times the square of a reference's own relMSE. Markdown on stdout.
 
     scripts/scores.py --vdb wdas_cloud_sixteenth.vdb --spp 512 --folder build/scores --json build/scores.json
     scripts/scores.py --unseen --vdb wdas_cloud_sixteenth.vdb --spp 256 --folder build/unseen --modes march

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double fourPi = 4.0 * glm::pi<double>();
 
-/// 1 − g of the widest lobe that is worth its branches: at .15 (the Disney cloud) they save two thirds of the time to
-/// an error, at .25 (cirrus) nothing but the last fireflies.
+/// 1 − g of the widest lobe that is worth its branches: at .15 (the Disney cloud) they save nearly half of the time
+/// to an error, at .25 (cirrus) nothing but the last fireflies.
 constexpr double widest = 0.3;
 
 /// Below it rounding of directions would show.
