@@ -93,10 +93,12 @@ shared::TraceParams GenerationTracer::traceParams(const Emission& emission, cons
     shared::TraceParams p{};
     const double f = static_cast<double>(medium_.tables.forwardFraction);
     const double least = std::min(medium_.albedo.x, std::min(medium_.albedo.y, medium_.albedo.z));
-    p.worldToVoxel = glm::mat3(glm::inverse(cloud_.toWorld.linear));
     p.size = glm::vec3(cloud_.size);
     p.cells = cloud_.majorants.cells;
     p.cellSize = cloud_.majorants.cellSize;
+    glm::dmat3 cellEdges = cloud_.toWorld.linear;
+    for (int axis = 0; axis < 3; ++axis) cellEdges[axis] *= static_cast<double>(p.cellSize[axis]);
+    p.worldToCells = glm::mat3(glm::inverse(cellEdges));
     p.extinction = static_cast<float>(medium_.extinction * (1.0 - f * least));
     p.turnShare = static_cast<float>((1.0 - f) / (1.0 - f * least));
     p.albedo = glm::vec3(medium_.albedo);
@@ -105,7 +107,7 @@ shared::TraceParams GenerationTracer::traceParams(const Emission& emission, cons
     p.asymmetry = medium_.tables.g;
     p.sunDirection = glm::vec3(-sun.directionTo);
     p.sunCone = static_cast<float>(2.0 * std::pow(std::sin(0.25 * glm::radians(sun.angularDiameter)), 2));
-    for (int axis = 0; axis < 3; ++axis) p.faceArea[axis] = glm::vec3(faceArea_[axis]);
+    setFaces(p, faceArea_);
     const double watts = std::ldexp(1.0, -unitExponent);
     p.sunPower = glm::vec3(emission.sunPower(options_.photonsPerGeneration) * watts);
     p.skyPower = glm::vec3(emission.skyPower(options_.photonsPerGeneration) * watts);

@@ -100,8 +100,8 @@ class Layer {
     shared::TraceParams params(std::uint32_t photons, std::uint32_t batch) const {
         const double sine = std::sqrt((1.0 - slab_.mu0) * (1.0 + slab_.mu0));
         shared::TraceParams p{};
-        p.worldToVoxel = glm::mat3(1.0F);
-        p.worldToVoxel[1][1] = static_cast<float>(cells_);
+        p.worldToCells = glm::mat3(1.0F);
+        p.worldToCells[1][1] = static_cast<float>(cells_);
         p.size = glm::vec3(1.0F, static_cast<float>(cells_), 1.0F);
         p.cells = glm::ivec3(1, cells_, 1);
         p.cellSize = glm::vec3(1.0F);
@@ -111,7 +111,7 @@ class Layer {
         p.turnFraction = 1.0F;
         p.asymmetry = tables_.g;
         p.sunDirection = glm::vec3(glm::dvec3(sine, -slab_.mu0, 0.0));
-        p.faceArea[1] = glm::vec3(0.0F, 1.0F, 0.0F);
+        setFaces(p, glm::dmat3(glm::dvec3(0.0), {0.0, 1.0, 0.0}, glm::dvec3(0.0)));
         p.sunPhotons = photons;
         p.photons = photons;
         p.generation = batch;
