@@ -22,7 +22,7 @@ layout(constant_id = 3) const bool PERIODIC = false;    // a plane-parallel laye
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform usampler3D collectorIndex;
 layout(binding = 2, scalar) readonly buffer Params { TraceParams storedParams; };
-layout(binding = 3) uniform sampler3D majorants;  // normalised; negative: distances in empty space
+layout(binding = 3, r32f) uniform readonly image3D majorants;  // normalised; negative: distances in empty space
 layout(binding = 4, scalar) readonly buffer InverseCdf { float inverseCdf[]; };
 layout(binding = 5, scalar) buffer States { TraceState states[]; };
 layout(binding = 6, scalar) writeonly buffer Records { PhotonRecord records[]; };
@@ -54,6 +54,13 @@ ScatterAngle samplePhase(float u) {
     if (ANALYTIC_PHASE) return sampleHg(params.asymmetry, u, params.turnFraction);
     const TableCell cell = inverseCdfCell(u);
     return angleFromOneMinusCos(mix(inverseCdf[cell.base], inverseCdf[cell.base + 1], cell.fraction));
+}
+
+/// A random number of the density's mean (lib/density.glsl).
+float densityNear(vec3 voxel, vec2 u) {
+    ivec3 near = voxelNear(voxel, u);
+    if (PERIODIC) near = clamp(near, ivec3(0), ivec3(params.size) - 1);  // a layer is as dense at its faces
+    return densityOf(density, near, ivec3(params.size));
 }
 
 /// Multiplies the weight; where that lowers its largest channel, Russian roulette keeps it up. False: absorbed.
@@ -130,7 +137,6 @@ void main() {
     params = storedParams;
     const uint lane = gl_GlobalInvocationID.x;
     if (lane >= params.invocations) return;
-    const vec3 inverseSize = 1.0 / params.size;
     TraceState state = states[lane];
     Walk walk = beginWalk(state);
     uint count = 0u, events = 0u, nulls = 0u, absorbed = 0u, escaped = 0u, lost = 0u;
@@ -141,7 +147,7 @@ void main() {
         float majorant = 0.0;
         uint event = state.alive != 0u ? WALK_CROSSED : WALK_LEFT;
         for (int crossed = 0; crossed < CROSSINGS && event == WALK_CROSSED; ++crossed) {
-            majorant = texelFetch(majorants, walk.cell, 0).r;
+            majorant = imageLoad(majorants, walk.cell).r;
             event = walkStep(walk, majorant < 0.0 ? majorant : majorant * params.extinction, params.cells, PERIODIC);
         }
         const bool enters = event == WALK_LEFT;
@@ -162,7 +168,7 @@ void main() {
         if (event == WALK_COLLISION) {
             stepToCollision(walk, majorant * params.extinction);
             const vec3 voxel = (vec3(walk.cell) + walk.offset) * params.cellSize;
-            if (u.x * majorant < densityAt(density, voxel, inverseSize)) {
+            if (u.x * majorant < densityNear(voxel, v.zw)) {
                 ++events;
                 if (!collide(state, voxel, v, lane, count, turns)) {
                     ++absorbed;

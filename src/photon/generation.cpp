@@ -154,10 +154,10 @@ void GenerationTracer::round(const gpu::Buffer& coefficients) {
     commands_.fill(collectorCounts_, 0);
     commands_.barrier("counts cleared");
     commands_.dispatch(traceProgram_,
-                       {{"density", cloud_.density, Sampler::linear},
+                       {{"density", cloud_.density, Sampler::nearest},
                         {"collectorIndex", cloud_.collectorIndex, Sampler::nearest},
                         {"Params", params_},
-                        {"majorants", cloud_.majorantImage, Sampler::nearest},
+                        {"majorants", cloud_.majorantImage},
                         {"InverseCdf", inverseCdf_},
                         {"States", states_},
                         {"Records", records_},
