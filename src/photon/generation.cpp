@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
@@ -26,15 +27,19 @@ using gpu::SpecConstant;
 
 /// Records that one round of tracing can hold; what does not fit waits for the next round.
 constexpr std::uint32_t roundRecords = 1U << 21U;
-/// Enough lanes to fill the device, few enough that each walks dozens of photons.
-constexpr std::uint32_t cpuInvocations = 2048, gpuInvocations = 65536;
+/// Enough lanes to fill the device, few enough that each walks dozens of photons: those that finish early idle until
+/// the last one of their group does.
+constexpr std::uint32_t coreInvocations = 512, gpuInvocations = 65536;
+constexpr unsigned leastCores = 2, mostCores = 16;
 /// Rows of workgroups that share the records of the invocations.
 constexpr std::uint32_t sortRows = 16;
 constexpr std::uint32_t stepLimit = 1U << 15U;
 /// A photon that collides more often is counted as lost. Optical depth 1e6 with albedo 1 stays below it.
 constexpr std::uint32_t collisionLimit = 1U << 24U;
+
 std::uint32_t invocationsFor(const gpu::Context& context, std::uint64_t photons) {
-    const std::uint64_t most = context.isCpu() ? cpuInvocations : gpuInvocations;
+    const unsigned cores = std::clamp(std::thread::hardware_concurrency(), leastCores, mostCores);
+    const std::uint64_t most = context.isCpu() ? coreInvocations * cores : gpuInvocations;
     return static_cast<std::uint32_t>(std::min(most, (photons + 63) / 64 * 64));
 }
 
