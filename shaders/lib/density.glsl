@@ -10,6 +10,13 @@ float densityOf(sampler3D density, ivec3 voxel, ivec3 size) {
     return inside ? texelFetch(density, voxel, 0).r : 0.0;
 }
 
+/// One of the eight voxels around a place, each with its weight in the interpolation between them: one look-up then has
+/// the mean of the interpolated density. That is exact where only the mean counts, as for whether a collision is real.
+ivec3 voxelNear(vec3 voxel, vec2 u) {
+    const float fine = 4096.0 * u.x;  // of 24 bits, half for y and half for z
+    return ivec3(floor(voxel - 0.5 + vec3(u.y, (floor(fine) + 0.5) / 4096.0, fract(fine))));
+}
+
 /// Exact integral of the trilinear field over one voxel's cube: in each axis (⅛, ¾, ⅛), which two taps at ±¼ give;
 /// after it the moment about the voxel's lower corner.
 vec4 voxelMass(sampler3D density, ivec3 voxel, vec3 inverseSize) {

@@ -4,46 +4,41 @@
 
 #include "shared/phase.h"
 
-/// A point on one of the six faces, in voxel coordinates, the face chosen by `weights` (x, y, z; either side by `side`).
-vec3 entryPoint(vec3 weights, bvec3 upper, vec2 u, float choice, vec3 size, out int axis) {
-    const float pick = choice * (weights.x + weights.y + weights.z);
-    axis = pick < weights.x ? 0 : (pick < weights.x + weights.y ? 1 : 2);
-    vec3 point;
-    point[axis] = upper[axis] ? size[axis] : 0.0;
-    point[(axis + 1) % 3] = u.x * size[(axis + 1) % 3];
-    point[(axis + 2) % 3] = u.y * size[(axis + 2) % 3];
-    return point;
+/// x, y or z, by weights; u in [0,1).
+bvec3 chooseAxis(vec3 weights, float u) {
+    const float pick = u * (weights.x + weights.y + weights.z);
+    const bool x = pick < weights.x, y = !x && pick < weights.x + weights.y;
+    return bvec3(x, y, !x && !y);
 }
 
-vec3 flux(TraceParams params, vec3 direction) {
-    return abs(vec3(dot(params.faceArea[0], direction), dot(params.faceArea[1], direction),
-                    dot(params.faceArea[2], direction)));
+vec3 faceArea(TraceParams params, bvec3 axis) {
+    return axis.x ? params.faceArea[0] : (axis.y ? params.faceArea[1] : params.faceArea[2]);
 }
 
-/// A photon of the sun's disc: uniform over the disc and over the projection of the box. Returns its weight: the
-/// projected area for this direction against that for the disc's middle.
-float emitSun(TraceParams params, vec4 u, vec4 v, out vec3 point, out vec3 direction) {
-    direction = rotateDirection(params.sunDirection, angleFromOneMinusCos(params.sunCone * u.x), 6.28318531 * u.y);
-    const vec3 through = flux(params, direction);
-    const vec3 middle = flux(params, params.sunDirection);
-    const bvec3 upper = bvec3(dot(params.faceArea[0], direction) < 0.0, dot(params.faceArea[1], direction) < 0.0,
-                              dot(params.faceArea[2], direction) < 0.0);
-    int axis;
-    point = entryPoint(through, upper, v.xy, v.z, params.size, axis);
-    return (through.x + through.y + through.z) / (middle.x + middle.y + middle.z);
+/// Directions of a light before it enters, as an angle about an axis, uniform in azimuth: the sun's disc, uniform over
+/// its solid angle, or a constant sky, cosine-distributed inwards of a face that `choice` and `side` choose.
+vec3 lightAxis(TraceParams params, bool ofSun, float choice, float side) {
+    const vec3 area = faceArea(params, chooseAxis(params.faceSize, choice));
+    const vec3 inwards = (side < 0.5 ? -area : area) * inversesqrt(dot(area, area));
+    return ofSun ? params.sunDirection : inwards;
 }
 
-/// A photon of a constant sky: uniform over the box's faces, cosine-distributed inwards.
-void emitSky(TraceParams params, vec4 u, vec4 v, out vec3 point, out vec3 direction) {
-    const vec3 areas = vec3(length(params.faceArea[0]), length(params.faceArea[1]), length(params.faceArea[2]));
-    const bvec3 upper = bvec3(u.z < 0.5);
-    int axis;
-    point = entryPoint(areas, upper, v.xy, v.z, params.size, axis);
-    const vec3 inwards = (upper[axis] ? -1.0 : 1.0) * params.faceArea[axis] / areas[axis];
-    // cos² θ uniform: sin² = u; 1 − cos without cancellation
-    const float sine = sqrt(u.x), cosine = sqrt(1.0 - u.x);
-    const ScatterAngle angle = ScatterAngle(u.x / (1.0 + cosine), 1.0 + cosine, sine);
-    direction = rotateDirection(inwards, angle, 6.28318531 * u.y);
+/// 1 − cos of the angle to lightAxis(). Sky: cos² θ uniform, without cancellation.
+float lightOneMinusCos(TraceParams params, bool ofSun, float u) {
+    return ofSun ? params.sunCone * u : u / (1.0 + sqrt(1.0 - u));
+}
+
+/// Where light of this direction enters, in voxel coordinates: uniform over the projection of the box (sun), or over
+/// the faces (sky; `choice` as above). Also the photon's weight: the projected area for this direction against that for
+/// the middle of the sun's disc.
+vec3 entryPoint(TraceParams params, bool ofSun, vec3 direction, vec2 u, float choice, out float weight) {
+    const vec3 through = vec3(dot(params.faceArea[0], direction), dot(params.faceArea[1], direction),
+                              dot(params.faceArea[2], direction));
+    const vec3 weights = ofSun ? abs(through) : params.faceSize;
+    weight = ofSun ? (weights.x + weights.y + weights.z) / params.sunThrough : 1.0;
+    const bvec3 axis = chooseAxis(weights, choice);
+    const vec3 inside = params.size * vec3(u.x, axis.z ? u.y : u.x, u.y);
+    return mix(inside, mix(vec3(0.0), params.size, lessThan(through, vec3(0.0))), axis);
 }
 
 #endif

@@ -12,24 +12,27 @@ struct Walk {
     ivec3 cell;
     vec3 offset;    // in the cell, 0…1
     vec3 velocity;  // cells per metre
+    vec3 slowness;  // its reciprocal
     float depth;    // optical depth left
 };
 
+void setVelocity(inout Walk walk, vec3 velocity) {
+    walk.velocity = velocity;
+    walk.slowness = 1.0 / velocity;
+}
+
 /// Goes on to the next collision or cell face. `majorant` is that of the walk's cell [1/m], or where it is negative
 /// the distance, in cells, to the nearest cell that is not empty: all nearer ones are crossed at once. A periodic grid
-/// goes on for ever in x and z.
+/// goes on for ever in x and z. At a collision the walk stays where it was: stepToCollision() goes there.
 uint walkStep(inout Walk walk, float majorant, ivec3 cells, bool periodic) {
     const float reach = max(-majorant - 1.0, 0.0);
-    majorant = max(majorant, 0.0);
     const bvec3 ahead = greaterThan(walk.velocity, vec3(0.0));
     const vec3 face = mix(vec3(-reach), vec3(1.0 + reach), ahead);
-    const vec3 distances = mix((face - walk.offset) / walk.velocity, vec3(3.4e38), equal(walk.velocity, vec3(0.0)));
+    const vec3 distances =
+        mix((face - walk.offset) * walk.slowness, vec3(3.4e38), equal(walk.velocity, vec3(0.0)));
     const float nearest = max(min(distances.x, min(distances.y, distances.z)), 0.0);
-    const float crossing = majorant * nearest;
-    if (walk.depth < crossing) {
-        walk.offset = clamp(walk.offset + walk.velocity * (walk.depth / majorant), 0.0, 1.0);
-        return WALK_COLLISION;
-    }
+    const float crossing = max(majorant, 0.0) * nearest;
+    if (walk.depth < crossing) return WALK_COLLISION;
     walk.depth -= crossing;
     const vec3 end = walk.offset + walk.velocity * nearest;
     const bvec3 met = bvec3(distances.x <= nearest, distances.x > nearest && distances.y <= nearest,
@@ -40,6 +43,11 @@ uint walkStep(inout Walk walk, float majorant, ivec3 cells, bool periodic) {
     if (periodic) walk.cell.xz = (walk.cell.xz + cells.xz) % cells.xz;
     const bool inside = all(greaterThanEqual(walk.cell, ivec3(0))) && all(lessThan(walk.cell, cells));
     return inside ? WALK_CROSSED : WALK_LEFT;
+}
+
+/// To the collision that walkStep() found in a cell of this majorant.
+void stepToCollision(inout Walk walk, float majorant) {
+    walk.offset = clamp(walk.offset + walk.velocity * (walk.depth / majorant), 0.0, 1.0);
 }
 
 #endif

@@ -22,7 +22,7 @@ layout(constant_id = 3) const bool PERIODIC = false;    // a plane-parallel laye
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform usampler3D collectorIndex;
 layout(binding = 2, scalar) readonly buffer Params { TraceParams storedParams; };
-layout(binding = 3) uniform sampler3D majorants;  // normalised; negative: distances in empty space
+layout(binding = 3, r32f) uniform readonly image3D majorants;  // normalised; negative: distances in empty space
 layout(binding = 4, scalar) readonly buffer InverseCdf { float inverseCdf[]; };
 layout(binding = 5, scalar) buffer States { TraceState states[]; };
 layout(binding = 6, scalar) writeonly buffer Records { PhotonRecord records[]; };
@@ -45,32 +45,22 @@ vec4 draw(inout TraceState state) {
 float opticalDepth(float u) { return -log(1.0 - u); }
 
 Walk beginWalk(TraceState state) {
-    return Walk(state.cell, state.offset, (params.worldToVoxel * state.direction) / params.cellSize, state.depth);
-}
-
-void emitPhoton(inout TraceState state) {
-    state.draws = 0u;
-    const vec4 u = draw(state);
-    const vec4 v = draw(state);
-    vec3 point;
-    float weight = 1.0;
-    if (state.photon < params.sunPhotons)
-        weight = emitSun(params, u, v, point, state.direction);
-    else
-        emitSky(params, u, v, point, state.direction);
-    state.cell = clamp(ivec3(floor(point / params.cellSize)), ivec3(0), params.cells - 1);
-    state.offset = clamp(point / params.cellSize - vec3(state.cell), 0.0, 1.0);
-    state.weight = vec3(weight);
-    state.depth = opticalDepth(v.w);
-    state.collisions = 0u;
-    state.turns = 0u;
-    state.alive = 1u;
+    Walk walk = Walk(state.cell, state.offset, vec3(0.0), vec3(0.0), state.depth);
+    setVelocity(walk, params.worldToCells * state.direction);
+    return walk;
 }
 
 ScatterAngle samplePhase(float u) {
     if (ANALYTIC_PHASE) return sampleHg(params.asymmetry, u, params.turnFraction);
     const TableCell cell = inverseCdfCell(u);
     return angleFromOneMinusCos(mix(inverseCdf[cell.base], inverseCdf[cell.base + 1], cell.fraction));
+}
+
+/// A random number of the density's mean (lib/density.glsl).
+float densityNear(vec3 voxel, vec2 u) {
+    ivec3 near = voxelNear(voxel, u);
+    if (PERIODIC) near = clamp(near, ivec3(0), ivec3(params.size) - 1);  // a layer is as dense at its faces
+    return densityOf(density, near, ivec3(params.size));
 }
 
 /// Multiplies the weight; where that lowers its largest channel, Russian roulette keeps it up. False: absorbed.
@@ -99,18 +89,48 @@ void record(TraceState state, vec3 voxel, uint lane, inout uint count) {
     ++count;
 }
 
-/// A real collision. False: the photon has ended.
-bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint count) {
+/// A real collision. False: the photon has ended. `turns`: whether it goes on in another direction.
+bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint count, out bool turns) {
     ++state.collisions;
-    vec4 choice = vec4(0.0);
-    if (TURNS_ONLY || ABSORBS) choice = draw(state);
-    if (TURNS_ONLY && choice.x >= params.turnShare) return survives(state, params.straightWeight, choice.y);
+    turns = !TURNS_ONLY || u.x < params.turnShare;
+    if (!turns) return survives(state, params.straightWeight, u.y);
     // The sun's first turn is drawn from the optical depths to the sun, not from the map (docs/architecture.md).
     if (state.turns > 0u || state.photon >= params.sunPhotons) record(state, voxel, lane, count);
     ++state.turns;
-    if (ABSORBS && !survives(state, params.albedo, choice.y)) return false;
-    state.direction = rotateDirection(state.direction, samplePhase(u.z), 6.28318531 * u.w);
-    return true;
+    return !ABSORBS || survives(state, params.albedo, u.y);
+}
+
+/// A photon that has not entered yet.
+void startPhoton(inout TraceState state) {
+    state.draws = 0u;
+    state.collisions = 0u;
+    state.turns = 0u;
+    state.alive = 1u;
+}
+
+void endPhoton(inout TraceState state) {
+    state.alive = 0u;
+    state.photon += params.invocations;
+}
+
+/// A new direction: at a turn, or of a photon that enters. One rotation for both: on a CPU all lanes pay for what one
+/// of them does.
+void turn(inout TraceState state, inout Walk walk, bool enters, vec4 u, vec4 v) {
+    const bool ofSun = state.photon < params.sunPhotons;
+    const vec3 axis = enters ? lightAxis(params, ofSun, v.z, v.w) : state.direction;
+    const ScatterAngle scattered = samplePhase(u.z);
+    const ScatterAngle emitted = angleFromOneMinusCos(lightOneMinusCos(params, ofSun, u.z));
+    const ScatterAngle angle = ScatterAngle(enters ? emitted.oneMinusCos : scattered.oneMinusCos, 0.0,
+                                            enters ? emitted.sinTheta : scattered.sinTheta);
+    state.direction = rotateDirection(axis, angle, 6.28318531 * u.w);
+    setVelocity(walk, params.worldToCells * state.direction);
+    if (enters) {
+        float weight;
+        const vec3 point = entryPoint(params, ofSun, state.direction, v.xy, v.z, weight) / params.cellSize;
+        walk.cell = clamp(ivec3(floor(point)), ivec3(0), params.cells - 1);
+        walk.offset = clamp(point - vec3(walk.cell), 0.0, 1.0);
+        state.weight = vec3(weight);
+    }
 }
 
 void main() {
@@ -123,45 +143,46 @@ void main() {
     uvec3 sides = uvec3(0u);  // reflected, transmitted diffusely, directly
 
     for (uint step = 0u; step < params.stepLimit && count < params.recordCapacity; ++step) {
-        if (state.alive == 0u) {
-            if (state.photon >= params.photons) break;
-            emitPhoton(state);
-            walk = beginWalk(state);
-        }
-        // Lanes that cross cells do not wait for those that collide.
+        // Lanes that cross cells do not wait for those that have met something.
         float majorant = 0.0;
-        uint event = WALK_CROSSED;
+        uint event = state.alive != 0u ? WALK_CROSSED : WALK_LEFT;
         for (int crossed = 0; crossed < CROSSINGS && event == WALK_CROSSED; ++crossed) {
-            majorant = texelFetch(majorants, walk.cell, 0).r;
+            majorant = imageLoad(majorants, walk.cell).r;
             event = walkStep(walk, majorant < 0.0 ? majorant : majorant * params.extinction, params.cells, PERIODIC);
         }
-        bool ended = event == WALK_LEFT;
-        if (ended) {
-            ++escaped;
-            const bool up = walk.cell.y >= params.cells.y;
-            if (PERIODIC) ++sides[up ? 0 : (state.collisions > 0u ? 1 : 2)];
+        const bool enters = event == WALK_LEFT;
+        if (enters) {
+            if (state.alive != 0u) {
+                ++escaped;
+                const bool up = walk.cell.y >= params.cells.y;
+                if (PERIODIC) ++sides[up ? 0 : (state.collisions > 0u ? 1 : 2)];
+                endPhoton(state);
+            }
+            if (state.photon >= params.photons) break;
+            startPhoton(state);
         }
+        if (event == WALK_CROSSED) continue;
+        const vec4 u = draw(state);
+        const vec4 v = draw(state);
+        bool turns = enters;
         if (event == WALK_COLLISION) {
+            stepToCollision(walk, majorant * params.extinction);
             const vec3 voxel = (vec3(walk.cell) + walk.offset) * params.cellSize;
-            const vec4 u = draw(state);
-            walk.depth = opticalDepth(u.y);
-            if (u.x * majorant < densityAt(density, voxel, 1.0 / params.size)) {
+            if (u.x * majorant < densityNear(voxel, v.zw)) {
                 ++events;
-                ended = !collide(state, voxel, u, lane, count);
-                walk.velocity = (params.worldToVoxel * state.direction) / params.cellSize;
-                if (ended) ++absorbed;
-                if (!ended && state.collisions >= params.collisionLimit) {
-                    ended = true;
+                if (!collide(state, voxel, v, lane, count, turns)) {
+                    ++absorbed;
+                    endPhoton(state);
+                } else if (state.collisions >= params.collisionLimit) {
                     ++lost;
+                    endPhoton(state);
                 }
             } else {
                 ++nulls;
             }
         }
-        if (ended) {
-            state.alive = 0u;
-            state.photon += params.invocations;
-        }
+        walk.depth = opticalDepth(u.y);
+        if (turns) turn(state, walk, enters, u, v);
     }
 
     state.cell = walk.cell;

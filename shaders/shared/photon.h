@@ -16,7 +16,7 @@ const uint NO_COLLECTOR = 0xFFFFFFFFU;
 
 /// How photons move through the cloud. Lengths are metres; `power` is in record units.
 struct TraceParams {
-    mat3 worldToVoxel;  // directions: voxels per metre
+    mat3 worldToCells;  // directions: cells per metre
     vec3 size;          // voxels
     ivec3 cells;        // of the majorant grid
     vec3 cellSize;      // voxels per cell
@@ -29,6 +29,8 @@ struct TraceParams {
     vec3 sunDirection;    // of travel
     float sunCone;        // 1 − cos of the disc's angular radius
     vec3 faceArea[3];     // area vectors of the box's faces across x, y, z [m²]
+    vec3 faceSize;        // their lengths
+    float sunThrough;     // area of the box that the middle of the sun's disc sees [m²]
     vec3 sunPower;
     vec3 skyPower;
     uint sunPhotons;  // the first ones of a generation
@@ -103,7 +105,7 @@ struct ReconstructPush {
 
 #ifdef __cplusplus
 // Scalar layout, as SPIR-V has it; tests/unit/shared_layout_test.cpp compares every member.
-static_assert(sizeof(TraceParams) == 244 && offsetof(TraceParams, depositCells) == 232);
+static_assert(sizeof(TraceParams) == 260 && offsetof(TraceParams, depositCells) == 248);
 static_assert(sizeof(TraceState) == 72 && offsetof(TraceState, alive) == 68);
 static_assert(sizeof(PhotonRecord) == 16 && offsetof(PhotonRecord, power) == 8);
 static_assert(sizeof(TraceCounters) == 80 && offsetof(TraceCounters, unused) == 76);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
@@ -26,15 +27,19 @@ using gpu::SpecConstant;
 
 /// Records that one round of tracing can hold; what does not fit waits for the next round.
 constexpr std::uint32_t roundRecords = 1U << 21U;
-/// Enough lanes to fill the device, few enough that each walks dozens of photons.
-constexpr std::uint32_t cpuInvocations = 2048, gpuInvocations = 65536;
+/// Enough lanes to fill the device, few enough that each walks dozens of photons: those that finish early idle until
+/// the last one of their group does.
+constexpr std::uint32_t coreInvocations = 512, gpuInvocations = 65536;
+constexpr unsigned leastCores = 2, mostCores = 16;
 /// Rows of workgroups that share the records of the invocations.
 constexpr std::uint32_t sortRows = 16;
 constexpr std::uint32_t stepLimit = 1U << 15U;
 /// A photon that collides more often is counted as lost. Optical depth 1e6 with albedo 1 stays below it.
 constexpr std::uint32_t collisionLimit = 1U << 24U;
+
 std::uint32_t invocationsFor(const gpu::Context& context, std::uint64_t photons) {
-    const std::uint64_t most = context.isCpu() ? cpuInvocations : gpuInvocations;
+    const unsigned cores = std::clamp(std::thread::hardware_concurrency(), leastCores, mostCores);
+    const std::uint64_t most = context.isCpu() ? coreInvocations * cores : gpuInvocations;
     return static_cast<std::uint32_t>(std::min(most, (photons + 63) / 64 * 64));
 }
 
@@ -93,10 +98,12 @@ shared::TraceParams GenerationTracer::traceParams(const Emission& emission, cons
     shared::TraceParams p{};
     const double f = static_cast<double>(medium_.tables.forwardFraction);
     const double least = std::min(medium_.albedo.x, std::min(medium_.albedo.y, medium_.albedo.z));
-    p.worldToVoxel = glm::mat3(glm::inverse(cloud_.toWorld.linear));
     p.size = glm::vec3(cloud_.size);
     p.cells = cloud_.majorants.cells;
     p.cellSize = cloud_.majorants.cellSize;
+    glm::dmat3 cellEdges = cloud_.toWorld.linear;
+    for (int axis = 0; axis < 3; ++axis) cellEdges[axis] *= static_cast<double>(p.cellSize[axis]);
+    p.worldToCells = glm::mat3(glm::inverse(cellEdges));
     p.extinction = static_cast<float>(medium_.extinction * (1.0 - f * least));
     p.turnShare = static_cast<float>((1.0 - f) / (1.0 - f * least));
     p.albedo = glm::vec3(medium_.albedo);
@@ -105,7 +112,7 @@ shared::TraceParams GenerationTracer::traceParams(const Emission& emission, cons
     p.asymmetry = medium_.tables.g;
     p.sunDirection = glm::vec3(-sun.directionTo);
     p.sunCone = static_cast<float>(2.0 * std::pow(std::sin(0.25 * glm::radians(sun.angularDiameter)), 2));
-    for (int axis = 0; axis < 3; ++axis) p.faceArea[axis] = glm::vec3(faceArea_[axis]);
+    setFaces(p, faceArea_);
     const double watts = std::ldexp(1.0, -unitExponent);
     p.sunPower = glm::vec3(emission.sunPower(options_.photonsPerGeneration) * watts);
     p.skyPower = glm::vec3(emission.skyPower(options_.photonsPerGeneration) * watts);
@@ -152,10 +159,10 @@ void GenerationTracer::round(const gpu::Buffer& coefficients) {
     commands_.fill(collectorCounts_, 0);
     commands_.barrier("counts cleared");
     commands_.dispatch(traceProgram_,
-                       {{"density", cloud_.density, Sampler::linear},
+                       {{"density", cloud_.density, Sampler::nearest},
                         {"collectorIndex", cloud_.collectorIndex, Sampler::nearest},
                         {"Params", params_},
-                        {"majorants", cloud_.majorantImage, Sampler::nearest},
+                        {"majorants", cloud_.majorantImage},
                         {"InverseCdf", inverseCdf_},
                         {"States", states_},
                         {"Records", records_},

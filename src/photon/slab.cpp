@@ -57,7 +57,7 @@ class Layer {
           tables_(phase::makeScatteringTables(slab.phase, 0.0, glm::dvec3(slab.albedo), 2, 0.0)),
           cells_(std::clamp(static_cast<int>(std::ceil(slab.tau / cellThickness)), 1, 2048)),
           program_(context, "trace", traceSpirv(), traceConstants(tables_, glm::dvec3(slab.albedo), true)),
-          density_(context, "density", glm::ivec3(1), VK_FORMAT_R32_SFLOAT),
+          density_(context, "density", glm::ivec3(1, cells_, 1), VK_FORMAT_R32_SFLOAT),
           index_(context, "collector index", glm::ivec3(1), VK_FORMAT_R32_UINT),
           majorants_(context, "majorants", glm::ivec3(1, cells_, 1), VK_FORMAT_R32_SFLOAT),
           params_(context, "trace params", sizeof(shared::TraceParams), Memory::host),
@@ -68,9 +68,10 @@ class Layer {
           collectorCounts_(context, "collector counts", sizeof(std::uint32_t), Memory::device),
           counters_(context, "trace counters", sizeof(shared::TraceCounters), Memory::host),
           commands_(context) {
-        gpu::upload(context, density_, std::vector<float>{1.0F});
+        const std::vector<float> ones(static_cast<std::size_t>(cells_), 1.0F);
+        gpu::upload(context, density_, ones);
         gpu::upload(context, index_, std::vector<std::uint32_t>{shared::NO_COLLECTOR});
-        gpu::upload(context, majorants_, std::vector<float>(static_cast<std::size_t>(cells_), 1.0F));
+        gpu::upload(context, majorants_, ones);
         if (!tables_.inverseCdf.empty()) gpu::upload(context, inverseCdf_, tables_.inverseCdf);
     }
 
@@ -100,8 +101,8 @@ class Layer {
     shared::TraceParams params(std::uint32_t photons, std::uint32_t batch) const {
         const double sine = std::sqrt((1.0 - slab_.mu0) * (1.0 + slab_.mu0));
         shared::TraceParams p{};
-        p.worldToVoxel = glm::mat3(1.0F);
-        p.worldToVoxel[1][1] = static_cast<float>(cells_);
+        p.worldToCells = glm::mat3(1.0F);
+        p.worldToCells[1][1] = static_cast<float>(cells_);
         p.size = glm::vec3(1.0F, static_cast<float>(cells_), 1.0F);
         p.cells = glm::ivec3(1, cells_, 1);
         p.cellSize = glm::vec3(1.0F);
@@ -111,7 +112,7 @@ class Layer {
         p.turnFraction = 1.0F;
         p.asymmetry = tables_.g;
         p.sunDirection = glm::vec3(glm::dvec3(sine, -slab_.mu0, 0.0));
-        p.faceArea[1] = glm::vec3(0.0F, 1.0F, 0.0F);
+        setFaces(p, glm::dmat3(glm::dvec3(0.0), {0.0, 1.0, 0.0}, glm::dvec3(0.0)));
         p.sunPhotons = photons;
         p.photons = photons;
         p.generation = batch;
@@ -127,12 +128,11 @@ class Layer {
     void round() {
         commands_.begin();
         commands_.pass("slab");
-        // A layer has the same density everywhere, at its faces too.
         commands_.dispatch(program_,
-                           {{"density", density_, Sampler::linearClamp},
+                           {{"density", density_, Sampler::nearest},
                             {"collectorIndex", index_, Sampler::nearest},
                             {"Params", params_},
-                            {"majorants", majorants_, Sampler::nearest},
+                            {"majorants", majorants_},
                             {"InverseCdf", inverseCdf_},
                             {"States", states_},
                             {"Records", records_},

@@ -18,6 +18,9 @@ std::span<const std::uint32_t> traceSpirv();
 std::vector<gpu::SpecConstant> traceConstants(const phase::ScatteringTables& tables, const glm::dvec3& albedo,
                                               bool periodic);
 
+/// The faces of the box that photons enter by, with these area vectors [m²]; `p.sunDirection` must be set.
+void setFaces(shared::TraceParams& p, const glm::dmat3& faceArea);
+
 /// No photon alive; invocation i begins with photon i.
 void resetStates(std::span<shared::TraceState> states);
 

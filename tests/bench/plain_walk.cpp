@@ -8,10 +8,12 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "photon/emission.h"
 #include "shared/phase.h"
 #include "shared/phase_table.h"
+#include "shared/photon.h"
 #include "shared/sh.h"
 
 namespace lumulus::bench {
@@ -77,9 +79,10 @@ struct PlainWalk::Photon {
     int turns = 0;
 };
 
+template <class Number>
 struct PlainWalk::Sums {
-    explicit Sums(std::size_t collectors) : values(collectors * 3 * coefficients, 0.0F) {}
-    std::vector<float> values;
+    explicit Sums(std::size_t collectors) : values(collectors * 3 * coefficients, Number{0}) {}
+    std::vector<Number> values;
     std::uint64_t events = 0, nulls = 0, records = 0;
 };
 
@@ -89,11 +92,12 @@ PlainWalk::PlainWalk(const vdb::Volume& volume, const cloud::Cloud& cloud, const
       size_(cloud.size),
       cells_(cloud.majorants.cells),
       cellSize_(cloud.majorants.cellSize),
-      worldToVoxel_(glm::inverse(cloud.toWorld.linear)),
+      worldToCells_(glm::mat3(glm::inverse(cloud.toWorld.linear))),
       faceArea_(photon::faceAreas(cloud.toWorld.linear, glm::dvec3(cloud.size))),
       majorants_(cloud::majorantsAndDistances(cloud.majorants)),
       density_(volume.density.size()),
       collectorIndex_(volume.density.size(), noCollector) {
+    for (int axis = 0; axis < 3; ++axis) worldToCells_[axis] /= cellSize_;
     const double f = static_cast<double>(medium.tables.forwardFraction);
     const double least = std::min({medium.albedo.x, medium.albedo.y, medium.albedo.z});
     extinction_ = static_cast<float>(medium.extinction * (1.0 - f * least));
@@ -110,20 +114,12 @@ PlainWalk::PlainWalk(const vdb::Volume& volume, const cloud::Cloud& cloud, const
     }
 }
 
-/// Trilinear. The outermost voxels are zero, so that positions beyond their centres can be moved there.
-float PlainWalk::densityAt(const glm::vec3& voxel) const {
-    const glm::vec3 place = voxel - 0.5F;
-    const glm::ivec3 base = glm::clamp(glm::ivec3(place), glm::ivec3(0), size_ - 2);
-    const glm::vec3 t = glm::clamp(place - glm::vec3(base), 0.0F, 1.0F);
-    const std::uint16_t* d = density_.data() + at(base, size_);
-    const std::ptrdiff_t row = size_.x, slice = row * size_.y;
-    const auto along = [&](const std::uint16_t* p) {
-        const auto first = static_cast<float>(p[0]), second = static_cast<float>(p[1]);
-        return first + t.x * (second - first);
-    };
-    const float near = along(d) + t.y * (along(d + row) - along(d));
-    const float far = along(d + slice) + t.y * (along(d + slice + row) - along(d + slice));
-    return (near + t.z * (far - near)) * (1.0F / 65535.0F);
+/// One of the eight voxels around the place, by the weights of trilinear interpolation. The outermost voxels are zero,
+/// so that positions beyond their centres can be moved there.
+float PlainWalk::densityNear(const glm::vec3& voxel, Random& random) const {
+    const glm::vec3 place = voxel + (glm::vec3(random(), random(), random()) + 0.5F);  // one up, as casts cut
+    const glm::ivec3 near = glm::clamp(glm::ivec3(place) - 1, glm::ivec3(0), size_ - 1);
+    return static_cast<float>(density_[at(near, size_)]) * (1.0F / 65535.0F);
 }
 
 PlainWalk::Photon PlainWalk::emit(const Lights& lights, bool ofSun, Random& random) const {
@@ -161,20 +157,28 @@ PlainWalk::Photon PlainWalk::emit(const Lights& lights, bool ofSun, Random& rand
     return photon;
 }
 
-void PlainWalk::record(const Photon& photon, const glm::vec3& voxel, Sums& sums) const {
+template <class Number>
+void PlainWalk::record(const Photon& photon, const glm::vec3& voxel, Sums<Number>& sums) const {
     const glm::ivec3 place = glm::min(glm::ivec3(voxel), size_ - 1);
     const std::uint16_t collector = collectorIndex_[at(place, size_)];
     if (collector == noCollector) return;
     float y[shared::shMaxCoefficients];
     shared::shEvaluate(bands, photon.direction, y);
-    float* sum = sums.values.data() + static_cast<std::size_t>(collector) * 3 * coefficients;
+    Number* sum = sums.values.data() + static_cast<std::size_t>(collector) * 3 * coefficients;
     for (int channel = 0; channel < 3; ++channel)
-        for (int i = 0; i < coefficients; ++i) sum[channel * coefficients + i] += photon.power[channel] * y[i];
+        for (int i = 0; i < coefficients; ++i) {
+            const float part = photon.power[channel] * y[i];
+            if constexpr (std::is_integral_v<Number>)
+                sum[channel * coefficients + i] += static_cast<std::int32_t>(std::nearbyint(part));
+            else
+                sum[channel * coefficients + i] += part;
+        }
     ++sums.records;
 }
 
 /// False: absorbed. Russian roulette keeps the largest channel where it was.
-bool PlainWalk::collide(Photon& photon, const glm::vec3& voxel, Random& random, Sums& sums) const {
+template <class Number>
+bool PlainWalk::collide(Photon& photon, const glm::vec3& voxel, Random& random, Sums<Number>& sums) const {
     const auto survives = [&](const glm::vec3& factor) {
         const float before = largest(photon.power);
         photon.power *= factor;
@@ -201,8 +205,9 @@ bool PlainWalk::collide(Photon& photon, const glm::vec3& voxel, Random& random, 
     return true;
 }
 
-void PlainWalk::walk(Photon& photon, Random& random, Sums& sums) const {
-    glm::vec3 velocity = (worldToVoxel_ * photon.direction) / cellSize_;
+template <class Number>
+void PlainWalk::walk(Photon& photon, Random& random, Sums<Number>& sums) const {
+    glm::vec3 velocity = worldToCells_ * photon.direction, slowness = 1.0F / velocity;
     float depth = -std::log(1.0F - random());
     while (true) {
         const float entry = majorants_[at(photon.cell, cells_)];
@@ -213,7 +218,7 @@ void PlainWalk::walk(Photon& photon, Random& random, Sums& sums) const {
         for (int i = 0; i < 3; ++i) {
             if (velocity[i] == 0.0F) continue;
             const float face = velocity[i] > 0.0F ? 1.0F + reach : -reach;
-            const float distance = (face - photon.offset[i]) / velocity[i];
+            const float distance = (face - photon.offset[i]) * slowness[i];
             if (distance < nearest) nearest = distance, axis = i;
         }
         nearest = std::max(nearest, 0.0F);
@@ -222,13 +227,14 @@ void PlainWalk::walk(Photon& photon, Random& random, Sums& sums) const {
             photon.offset = glm::clamp(photon.offset + velocity * (depth / (majorant * extinction_)), 0.0F, 1.0F);
             depth = -std::log(1.0F - random());
             const glm::vec3 voxel = (glm::vec3(photon.cell) + photon.offset) * cellSize_;
-            if (random() * majorant >= densityAt(voxel)) {
+            if (random() * majorant >= densityNear(voxel, random)) {
                 ++sums.nulls;
                 continue;
             }
             ++sums.events;
             if (!collide(photon, voxel, random, sums)) return;
-            velocity = (worldToVoxel_ * photon.direction) / cellSize_;
+            velocity = worldToCells_ * photon.direction;
+            slowness = 1.0F / velocity;
             continue;
         }
         depth -= crossing;
@@ -242,27 +248,32 @@ void PlainWalk::walk(Photon& photon, Random& random, Sums& sums) const {
     }
 }
 
-WalkResult PlainWalk::trace(const scene::Sun& sun, const scene::Sky& sky, std::uint64_t photons,
-                            std::uint64_t seed) const {
+template <class Number>
+WalkResult<Number> PlainWalk::trace(const scene::Sun& sun, const scene::Sky& sky, std::uint64_t photons,
+                                    std::uint64_t seed) const {
     constexpr std::uint64_t task = 256;
     const photon::Emission emission = photon::makeEmission(sun, sky, faceArea_);
     const std::uint64_t ofSun = emission.sunPhotons(photons, 0.5);
     const double radius = glm::radians(0.25 * sun.angularDiameter);
+    WalkResult<Number> result;
+    if constexpr (std::is_integral_v<Number>) {
+        const float most = largest(glm::max(emission.sunPower(photons), emission.skyPower(photons)));
+        result.unit = static_cast<double>(most / (shared::POWER_UNITS * shared::COEFFICIENT_SCALE));
+    }
     const Lights lights{glm::vec3(-sun.directionTo), static_cast<float>(2.0 * std::pow(std::sin(radius), 2)),
-                        glm::vec3(emission.sunPower(photons)), glm::vec3(emission.skyPower(photons)),
-                        glm::mat3(faceArea_)};
-    tbb::enumerable_thread_specific<Sums> perThread(collectors_);
+                        glm::vec3(emission.sunPower(photons) / result.unit),
+                        glm::vec3(emission.skyPower(photons) / result.unit), glm::mat3(faceArea_)};
+    tbb::enumerable_thread_specific<Sums<Number>> perThread(collectors_);
     tbb::parallel_for(std::uint64_t{0}, (photons + task - 1) / task, [&](std::uint64_t block) {
         Random random(seed * 0x1000000ULL + block);
-        Sums& sums = perThread.local();
+        Sums<Number>& sums = perThread.local();
         for (std::uint64_t i = block * task; i < std::min((block + 1) * task, photons); ++i) {
             Photon photon = emit(lights, i < ofSun, random);
             walk(photon, random, sums);
         }
     });
-    WalkResult result;
-    result.sums.assign(collectors_ * 3 * coefficients, 0.0F);
-    for (const Sums& sums : perThread) {
+    result.sums.assign(collectors_ * 3 * coefficients, Number{0});
+    for (const Sums<Number>& sums : perThread) {
         for (std::size_t i = 0; i < result.sums.size(); ++i) result.sums[i] += sums.values[i];
         result.events += sums.events;
         result.nulls += sums.nulls;
@@ -270,5 +281,9 @@ WalkResult PlainWalk::trace(const scene::Sun& sun, const scene::Sky& sky, std::u
     }
     return result;
 }
+
+template WalkResult<float> PlainWalk::trace(const scene::Sun&, const scene::Sky&, std::uint64_t, std::uint64_t) const;
+template WalkResult<std::int64_t> PlainWalk::trace(const scene::Sun&, const scene::Sky&, std::uint64_t,
+                                                   std::uint64_t) const;
 
 }  // namespace lumulus::bench

@@ -11,13 +11,16 @@
 
 /// The photon walk as one would write it in plain C++ for this machine, against which the GPU's is measured: the same
 /// estimator (delta tracking with local majorants, empty space crossed at once, the peak cut out, the sun's first turn
-/// left out) into the same store (bands² coefficients for each of R, G, B in the leaves of the kD-tree). It is free to
-/// do what suits a CPU: oneTBB, a fast generator with a state, sums of floats of its own in each thread, no records.
+/// left out, one voxel looked up at a collision) into the same store (bands² coefficients for each of R, G, B in the
+/// leaves of the kD-tree). It is free to do what suits a CPU: oneTBB, a fast generator with a state, sums of its own in
+/// each thread, no records.
 namespace lumulus::bench {
 
+template <class Number>
 struct WalkResult {
     std::uint64_t events = 0, nulls = 0, records = 0;
-    std::vector<float> sums;  ///< [collector][RGB][bands²], W times harmonics
+    std::vector<Number> sums;  ///< [collector][RGB][bands²], harmonics times power
+    double unit = 1.0;         ///< watts that a sum of 1 stands for
 };
 
 class PlainWalk {
@@ -27,11 +30,16 @@ class PlainWalk {
     /// All must outlive the walk. At most 65,535 collectors.
     PlainWalk(const vdb::Volume& volume, const cloud::Cloud& cloud, const photon::Medium& medium);
 
-    WalkResult trace(const scene::Sun& sun, const scene::Sky& sky, std::uint64_t photons, std::uint64_t seed) const;
+    /// Number float: the fastest store, whose last bits depend on which thread walked which photon. std::int64_t: the
+    /// GPU's store, integers of the same unit, whose bits do not.
+    template <class Number>
+    WalkResult<Number> trace(const scene::Sun& sun, const scene::Sky& sky, std::uint64_t photons,
+                             std::uint64_t seed) const;
 
   private:
     struct Lights;
     struct Photon;
+    template <class Number>
     struct Sums;
     class Random;
 
@@ -39,7 +47,7 @@ class PlainWalk {
     std::size_t collectors_;
     glm::ivec3 size_, cells_;
     glm::vec3 cellSize_;
-    glm::mat3 worldToVoxel_;
+    glm::mat3 worldToCells_;  ///< cells per metre
     glm::dmat3 faceArea_;
     float extinction_, turnShare_;  ///< collisions that are turns, or not at albedo below 1
     glm::vec3 straightWeight_;
@@ -47,11 +55,14 @@ class PlainWalk {
     std::vector<std::uint16_t> density_;         ///< of 65535, half the bytes of floats
     std::vector<std::uint16_t> collectorIndex_;  ///< of each voxel
 
-    float densityAt(const glm::vec3& voxel) const;
+    float densityNear(const glm::vec3& voxel, Random& random) const;
     Photon emit(const Lights& lights, bool ofSun, Random& random) const;
-    bool collide(Photon& photon, const glm::vec3& voxel, Random& random, Sums& sums) const;
-    void record(const Photon& photon, const glm::vec3& voxel, Sums& sums) const;
-    void walk(Photon& photon, Random& random, Sums& sums) const;
+    template <class Number>
+    bool collide(Photon& photon, const glm::vec3& voxel, Random& random, Sums<Number>& sums) const;
+    template <class Number>
+    void record(const Photon& photon, const glm::vec3& voxel, Sums<Number>& sums) const;
+    template <class Number>
+    void walk(Photon& photon, Random& random, Sums<Number>& sums) const;
 };
 
 }  // namespace lumulus::bench

@@ -94,8 +94,8 @@ TEST(SharedLayout, Cloud) {
 }
 
 TEST(SharedLayout, Photon) {
-    EXPECT_LAYOUT(trace_comp, TraceParams, worldToVoxel, size, cells, cellSize, extinction, turnShare, albedo,
-                  straightWeight, turnFraction, asymmetry, sunDirection, sunCone, faceArea, sunPower, skyPower,
+    EXPECT_LAYOUT(trace_comp, TraceParams, worldToCells, size, cells, cellSize, extinction, turnShare, albedo,
+                  straightWeight, turnFraction, asymmetry, sunDirection, sunCone, faceArea, faceSize, sunThrough, sunPower, skyPower,
                   sunPhotons, photons, generation, stream, collectors, invocations, recordCapacity, stepLimit,
                   collisionLimit, depositBase, depositEdge, depositCells);
     EXPECT_LAYOUT(trace_comp, TraceState, cell, offset, direction, weight, depth, photon, draws, collisions, turns,
