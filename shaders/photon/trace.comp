@@ -41,15 +41,6 @@ vec4 draw(inout TraceState state) {
     return rngUniform4(uvec4(state.photon, state.draws++, params.generation, params.stream));
 }
 
-/// Optical depth to the next tentative collision; u in [0,1).
-float opticalDepth(float u) { return -log(1.0 - u); }
-
-Walk beginWalk(TraceState state) {
-    Walk walk = Walk(state.cell, state.offset, vec3(0.0), vec3(0.0), state.depth);
-    setVelocity(walk, params.worldToCells * state.direction);
-    return walk;
-}
-
 ScatterAngle samplePhase(float u) {
     if (ANALYTIC_PHASE) return sampleHg(params.asymmetry, u, params.turnFraction);
     const TableCell cell = inverseCdfCell(u);
@@ -138,7 +129,7 @@ void main() {
     const uint lane = gl_GlobalInvocationID.x;
     if (lane >= params.invocations) return;
     TraceState state = states[lane];
-    Walk walk = beginWalk(state);
+    Walk walk = makeWalk(state.cell, state.offset, params.worldToCells * state.direction, state.depth);
     uint count = 0u, events = 0u, nulls = 0u, absorbed = 0u, escaped = 0u, lost = 0u;
     uvec3 sides = uvec3(0u);  // reflected, transmitted diffusely, directly
 
