@@ -124,6 +124,20 @@ void turn(inout TraceState state, inout Walk walk, bool enters, vec4 u, vec4 v) 
     }
 }
 
+void addCounts(uint events, uint nulls, uint absorbed, uint escaped, uint lost, uint recorded, uvec3 sides) {
+    atomicAdd(counters.events, uint64_t(events));
+    atomicAdd(counters.nulls, uint64_t(nulls));
+    atomicAdd(counters.absorbed, uint64_t(absorbed));
+    atomicAdd(counters.escaped, uint64_t(escaped));
+    atomicAdd(counters.lost, uint64_t(lost));
+    atomicAdd(counters.records, uint64_t(recorded));
+    if (PERIODIC) {
+        atomicAdd(counters.reflected, uint64_t(sides.x));
+        atomicAdd(counters.transmittedDiffuse, uint64_t(sides.y));
+        atomicAdd(counters.transmittedDirect, uint64_t(sides.z));
+    }
+}
+
 void main() {
     params = storedParams;
     const uint lane = gl_GlobalInvocationID.x;
@@ -145,8 +159,7 @@ void main() {
         if (enters) {
             if (state.alive != 0u) {
                 ++escaped;
-                const bool up = walk.cell.y >= params.cells.y;
-                if (PERIODIC) ++sides[up ? 0 : (state.collisions > 0u ? 1 : 2)];
+                if (PERIODIC) ++sides[walk.cell.y >= params.cells.y ? 0 : (state.collisions > 0u ? 1 : 2)];
                 endPhoton(state);
             }
             if (state.photon >= params.photons) break;
@@ -181,16 +194,6 @@ void main() {
     state.depth = walk.depth;
     states[lane] = state;
     recordCounts[lane] = count;
-    atomicAdd(counters.events, uint64_t(events));
-    atomicAdd(counters.nulls, uint64_t(nulls));
-    atomicAdd(counters.absorbed, uint64_t(absorbed));
-    atomicAdd(counters.escaped, uint64_t(escaped));
-    atomicAdd(counters.lost, uint64_t(lost));
-    atomicAdd(counters.records, uint64_t(count));
-    if (PERIODIC) {
-        atomicAdd(counters.reflected, uint64_t(sides.x));
-        atomicAdd(counters.transmittedDiffuse, uint64_t(sides.y));
-        atomicAdd(counters.transmittedDirect, uint64_t(sides.z));
-    }
+    addCounts(events, nulls, absorbed, escaped, lost, count, sides);
     if (state.alive != 0u || state.photon < params.photons) atomicAdd(counters.pending, 1u);
 }
