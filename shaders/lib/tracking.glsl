@@ -21,6 +21,13 @@ void setVelocity(inout Walk walk, vec3 velocity) {
     walk.slowness = 1.0 / velocity;
 }
 
+Walk makeWalk(ivec3 cell, vec3 offset, vec3 velocity, float depth) {
+    return Walk(cell, offset, velocity, 1.0 / velocity, depth);
+}
+
+/// Optical depth to the next tentative collision; u in [0,1).
+float opticalDepth(float u) { return -log(1.0 - u); }
+
 /// Goes on to the next collision or cell face. `majorant` is that of the walk's cell [1/m], or where it is negative
 /// the distance, in cells, to the nearest cell that is not empty: all nearer ones are crossed at once. A periodic grid
 /// goes on for ever in x and z. At a collision the walk stays where it was: stepToCollision() goes there.

@@ -41,15 +41,6 @@ vec4 draw(inout TraceState state) {
     return rngUniform4(uvec4(state.photon, state.draws++, params.generation, params.stream));
 }
 
-/// Optical depth to the next tentative collision; u in [0,1).
-float opticalDepth(float u) { return -log(1.0 - u); }
-
-Walk beginWalk(TraceState state) {
-    Walk walk = Walk(state.cell, state.offset, vec3(0.0), vec3(0.0), state.depth);
-    setVelocity(walk, params.worldToCells * state.direction);
-    return walk;
-}
-
 ScatterAngle samplePhase(float u) {
     if (ANALYTIC_PHASE) return sampleHg(params.asymmetry, u, params.turnFraction);
     const TableCell cell = inverseCdfCell(u);
@@ -133,12 +124,26 @@ void turn(inout TraceState state, inout Walk walk, bool enters, vec4 u, vec4 v) 
     }
 }
 
+void addCounts(uint events, uint nulls, uint absorbed, uint escaped, uint lost, uint recorded, uvec3 sides) {
+    atomicAdd(counters.events, uint64_t(events));
+    atomicAdd(counters.nulls, uint64_t(nulls));
+    atomicAdd(counters.absorbed, uint64_t(absorbed));
+    atomicAdd(counters.escaped, uint64_t(escaped));
+    atomicAdd(counters.lost, uint64_t(lost));
+    atomicAdd(counters.records, uint64_t(recorded));
+    if (PERIODIC) {
+        atomicAdd(counters.reflected, uint64_t(sides.x));
+        atomicAdd(counters.transmittedDiffuse, uint64_t(sides.y));
+        atomicAdd(counters.transmittedDirect, uint64_t(sides.z));
+    }
+}
+
 void main() {
     params = storedParams;
     const uint lane = gl_GlobalInvocationID.x;
     if (lane >= params.invocations) return;
     TraceState state = states[lane];
-    Walk walk = beginWalk(state);
+    Walk walk = makeWalk(state.cell, state.offset, params.worldToCells * state.direction, state.depth);
     uint count = 0u, events = 0u, nulls = 0u, absorbed = 0u, escaped = 0u, lost = 0u;
     uvec3 sides = uvec3(0u);  // reflected, transmitted diffusely, directly
 
@@ -154,8 +159,7 @@ void main() {
         if (enters) {
             if (state.alive != 0u) {
                 ++escaped;
-                const bool up = walk.cell.y >= params.cells.y;
-                if (PERIODIC) ++sides[up ? 0 : (state.collisions > 0u ? 1 : 2)];
+                if (PERIODIC) ++sides[walk.cell.y >= params.cells.y ? 0 : (state.collisions > 0u ? 1 : 2)];
                 endPhoton(state);
             }
             if (state.photon >= params.photons) break;
@@ -190,16 +194,6 @@ void main() {
     state.depth = walk.depth;
     states[lane] = state;
     recordCounts[lane] = count;
-    atomicAdd(counters.events, uint64_t(events));
-    atomicAdd(counters.nulls, uint64_t(nulls));
-    atomicAdd(counters.absorbed, uint64_t(absorbed));
-    atomicAdd(counters.escaped, uint64_t(escaped));
-    atomicAdd(counters.lost, uint64_t(lost));
-    atomicAdd(counters.records, uint64_t(count));
-    if (PERIODIC) {
-        atomicAdd(counters.reflected, uint64_t(sides.x));
-        atomicAdd(counters.transmittedDiffuse, uint64_t(sides.y));
-        atomicAdd(counters.transmittedDirect, uint64_t(sides.z));
-    }
+    addCounts(events, nulls, absorbed, escaped, lost, count, sides);
     if (state.alive != 0u || state.photon < params.photons) atomicAdd(counters.pending, 1u);
 }
