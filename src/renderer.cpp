@@ -111,7 +111,7 @@ void Renderer::traceGeneration() {
     State& s = *state_;
     const Stopwatch watch;
     if (s.photons) s.photons->trace(s.sunlight, s.scene.sky);
-    s.lightEye.reset();
+    s.forgetLight();
     ++s.sinceChange;
     s.statistics.traceSeconds += watch.seconds();
 }

@@ -25,7 +25,7 @@ void Renderer::State::makeLightField(std::uint64_t forPhotons) {
     const cloud::CellGrid grid = draw::lightGrid(*cloud, forPhotons);
     if (lightField && grid == lightField->grid()) return;
     lightField.emplace(context, *cloud, grid, depositGrid);
-    lightEye.reset();
+    forgetLight();
 }
 
 glm::dvec3 Renderer::State::toVoxel(const glm::dvec3& world) const {
@@ -57,6 +57,17 @@ shared::FieldParams Renderer::State::fieldParams() const {
     return field;
 }
 
+/// The photons' light is not what the light field was made of.
+void Renderer::State::forgetLight() {
+    lightEye.reset();
+    lightCounted = false;
+}
+
+draw::Deposits Renderer::State::deposits(const photon::Light& light) const {
+    const double moment = scene.photonMap.bands > 1 ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
+    return {*light.counts, photons->depositBase(), light.unit, photons->photonPower(), photons->massScale(), moment};
+}
+
 /// Light in the cloud as this view sees it; the sun's depths only once.
 void Renderer::State::recordLight(photon::Part part) {
     if (sunDepth && (sunDrawn == 0 || sunDrawn > sunAllowed)) {
@@ -68,9 +79,11 @@ void Renderer::State::recordLight(photon::Part part) {
         const photon::Light light = photons->light(part);
         photons->reconstruct(commands, eye, light);
         commands.barrier("collector radiance");
-        lightField->record(
-            commands, photons->radiance(),
-            {*light.counts, photons->depositBase(), light.unit, photons->photonPower(), photons->massScale()});
+        if (!lightCounted || part != photon::Part::all) {
+            lightField->recordCounts(commands, photons->fluences(), deposits(light));
+            lightCounted = part == photon::Part::all;
+        }
+        lightField->record(commands, eye, photons->radiance());
         lightEye = part == photon::Part::all ? std::optional(eye) : std::nullopt;
     }
 }
@@ -268,7 +281,7 @@ Preview Renderer::preview() {
         for (int row = 0; row < band.rows; ++row) preview.rows.push_back(band.first + row);
     preview.evenGenerations = s.photons->halves().even;
     preview.oddGenerations = s.photons->halves().odd;
-    s.lightEye.reset();
+    s.forgetLight();
     for (const photon::Part part : {photon::Part::even, photon::Part::odd}) {
         const Stopwatch watch;
         LayeredImage& image = part == photon::Part::even ? preview.even : preview.odd;

@@ -80,7 +80,7 @@ bool Renderer::setExtinction(double extinction) {
     s.medium.extinction *= extinction / now;
     now = extinction;
     if (s.photons) s.photons->setExtinction(s.medium.extinction);
-    s.lightEye.reset();
+    s.forgetLight();
     s.sunDrawn = 0;
     s.lightChanged();
     return true;

@@ -65,6 +65,7 @@ struct Renderer::State {
     scene::Sun sunlight = scene.sun;  ///< that reaches the cloud through the fog
 
     std::optional<glm::vec3> lightEye;  // that the light field was made for, by all photons as they are now
+    bool lightCounted = false;          // what of it no view changes is up to date
     int sunAllowed = 1;                 // reduction of the sun's depths
     int sunDrawn = 0;                   // reduction with which they are up to date; 0: they are not
     bool sharpening = false;            // whole ones are in the making
@@ -85,6 +86,8 @@ struct Renderer::State {
     void showView(const View& view);
     shared::FieldParams fieldParams() const;
     void makeLightField(std::uint64_t forPhotons);
+    void forgetLight();
+    draw::Deposits deposits(const photon::Light& light) const;
     void recordLight(photon::Part part);
     void drawLight(photon::Part part);
     void drawBands(LayeredImage& image, const std::vector<draw::Band>& bands, const Report& told);

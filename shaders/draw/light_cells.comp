@@ -1,56 +1,49 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-// Mass-weighted radiance of the collectors in each cell of a grid: (Σ ρ L, Σ ρ) over the cell's voxels, the radiance
-// scaled by the light that was counted in the cell against what its collectors have there on average. Collectors know
-// where light goes, cells where it is.
+// Radiance of the collectors towards the eye in each cell of a grid, their mean by mass, scaled and turned by what was
+// counted in the cell (light_counts.comp). Fourth component: 1 where there is density.
 #include "shared/draw.h"
+#include "shared/photon.h"
 #include "lib/linear.glsl"
+#include "lib/luminance.glsl"
 
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform usampler3D collectorIndex;
-layout(binding = 2, scalar) readonly buffer Radiance { vec4 collectorRadiance[]; };  // and fluence
-layout(binding = 3) uniform writeonly image3D cells;
-layout(binding = 4) uniform sampler3D cellMass;
-layout(binding = 5, scalar) readonly buffer Deposits { int64_t deposits[]; };
+layout(binding = 2) uniform sampler2D radiance;
+layout(binding = 3) uniform sampler3D counts;
+layout(binding = 4) uniform writeonly image3D cells;
 layout(push_constant, scalar) uniform Push { LightFieldPush push; };
-
-/// Counts of all cells of the deposits in a cell.
-float countedIn(ivec3 cell) {
-    const ivec3 first = cell * push.depositsAcross;
-    const ivec3 end = min(first + push.depositsAcross, push.depositCells);
-    int64_t sum = 0l;
-    for (int z = first.z; z < end.z; ++z)
-        for (int y = first.y; y < end.y; ++y)
-            for (int x = first.x; x < end.x; ++x)
-                sum += deposits[push.depositBase + uint((z * push.depositCells.y + y) * push.depositCells.x + x)];
-    return float(sum);
-}
 
 void main() {
     const uint index = linearInvocation(64u);
     const uvec3 grid = uvec3(push.grid);
     if (index >= grid.x * grid.y * grid.z) return;
     const ivec3 cell = ivec3(index % grid.x, (index / grid.x) % grid.y, index / (grid.x * grid.y));
+    const vec4 counted = texelFetch(counts, cell, 0);
+    if (counted.w == 0.0) {
+        imageStore(cells, cell, vec4(0.0));
+        return;
+    }
     const ivec3 lower = push.edge * cell;
     const ivec3 upper = min(lower + push.edge, push.size);
-    vec4 sum = vec4(0.0);
-    float fluence = 0.0;
+    vec4 light = vec4(0.0);
     for (int z = lower.z; z < upper.z; ++z)
         for (int y = lower.y; y < upper.y; ++y)
             for (int x = lower.x; x < upper.x; ++x) {
                 const float mass = texelFetch(density, ivec3(x, y, z), 0).r;
                 if (mass > 0.0) {
-                    const vec4 light = collectorRadiance[texelFetch(collectorIndex, ivec3(x, y, z), 0).r];
-                    sum += mass * vec4(light.rgb, 1.0);
-                    fluence += mass * light.a;
+                    const uint collector = texelFetch(collectorIndex, ivec3(x, y, z), 0).r;
+                    light += mass * texelFetch(radiance, ivec2(collector % RADIANCE_WIDTH, collector / RADIANCE_WIDTH), 0);
                 }
             }
-    if (sum.a > 0.0) {
-        const float counted = countedIn(cell) * push.depositScale;
-        const float expected = fluence / sum.a * texelFetch(cellMass, cell, 0).r * push.massScale;
-        sum.rgb *= (counted + push.prior) / (expected + push.prior);
+    // Cells count alike, however thin: weighted by mass, what is bright and thin would take the colour of what is behind.
+    if (light.a > 0.0) light /= light.a;
+    const float bright = luminance(light.rgb);
+    if (bright > 0.0) {
+        const vec3 away = push.voxelToWorld * (push.eye - (vec3(cell) + 0.5) * float(push.edge));
+        const float gain = dot(counted.xyz, away) * inversesqrt(max(dot(away, away), 1e-30));
+        light.rgb *= max(counted.w + gain / bright, 0.0);
     }
-    imageStore(cells, cell, sum);
+    imageStore(cells, cell, light);
 }

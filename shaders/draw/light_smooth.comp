@@ -1,13 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Smooths the cells with (¼, ½, ¼) along each axis. Mass and radiance stay apart until they are looked up, so that empty
-// cells do not darken their neighbours.
+// Smooths the cells with (¼, ½, ¼) along each axis, those less where many photons were counted. What is looked up is
+// divided by the fourth component, so that empty cells do not darken their neighbours.
 #include "shared/draw.h"
 #include "lib/linear.glsl"
 
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform sampler3D cells;
-layout(binding = 1) uniform writeonly image3D lightField;
+layout(binding = 1) uniform sampler3D ownShare;
+layout(binding = 2) uniform writeonly image3D lightField;
 layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
 void main() {
@@ -21,5 +22,6 @@ void main() {
         const ivec3 upper = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
         sum += textureLod(cells, vec3(cell + upper) * push.scale, 0.0);
     }
-    imageStore(lightField, cell, 0.125 * sum);
+    const float own = texelFetch(ownShare, cell, 0).r;
+    imageStore(lightField, cell, mix(0.125 * sum, texelFetch(cells, cell, 0), own));
 }

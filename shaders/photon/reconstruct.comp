@@ -13,7 +13,8 @@ layout(constant_id = 0) const int BANDS = 5;
 layout(binding = 0, scalar) readonly buffer Sum { int64_t sum[]; };
 layout(binding = 1, scalar) readonly buffer Moments { float moments[]; };      // of the phase function, by band
 layout(binding = 2, scalar) readonly buffer Collectors { vec4 collectors[]; };  // centre, mass [m²]
-layout(binding = 3, scalar) writeonly buffer Radiance { vec4 radiance[]; };  // and fluence (luminance)
+layout(binding = 3, scalar) writeonly buffer Fluences { CollectorFluence fluences[]; };
+layout(binding = 4) uniform writeonly image2D radiance;
 layout(push_constant, scalar) uniform Push { ReconstructPush push; };
 
 void main() {
@@ -34,5 +35,16 @@ void main() {
             total += (moments[l] * y[i]) * coefficient;
         }
     const vec3 mean = vec3(sum[base], sum[base + uint(COUNT)], sum[base + uint(2 * COUNT)]);
-    radiance[collector] = vec4(total, luminance(mean) / y[0]) * (push.scale / place.w);
+    const float unit = push.scale / place.w;
+    vec3 flux = vec3(0.0);
+    if (BANDS > 1) {
+        // y_1m is a component of the direction times √3 y_00
+        for (int axis = 0; axis < 3; ++axis) {
+            const uint i = base + uint(axis == 0 ? 3 : axis);
+            flux[axis] = luminance(vec3(sum[i], sum[i + uint(COUNT)], sum[i + uint(2 * COUNT)]));
+        }
+        flux *= 0.5773502692;
+    }
+    fluences[collector] = CollectorFluence(unit / y[0] * flux, unit / y[0] * luminance(mean));
+    imageStore(radiance, ivec2(collector % RADIANCE_WIDTH, collector / RADIANCE_WIDTH), vec4(unit * total, 1.0));
 }

@@ -3,6 +3,7 @@
 #extension GL_EXT_shader_atomic_int64 : require
 // One generation of photons. Each invocation walks photon after photon (its number, plus the number of invocations, …)
 // and stops when its share of the record buffer is full or its steps are spent; the next dispatch goes on from there.
+#include "shared/deposits.h"
 #include "shared/photon.h"
 #include "shared/rng.h"
 #include "shared/phase.h"
@@ -64,6 +65,14 @@ bool survives(inout TraceState state, vec3 factor, float u) {
     return true;
 }
 
+void deposit(vec3 voxel, vec3 direction, float amount) {
+    const ivec3 cell = min(ivec3(voxel) / params.depositEdge, params.depositCells - 1);
+    const uint flux = params.depositBase + fluxPlace(params.depositCells, cell);
+    atomicAdd(deposits[params.depositBase + numberIn(params.depositCells, cell)], int64_t(roundEven(amount)));
+    for (int axis = 0; axis < 3; ++axis)
+        atomicAdd(deposits[flux + uint(axis)], int64_t(roundEven(amount * direction[axis])));
+}
+
 void record(TraceState state, vec3 voxel, uint lane, inout uint count) {
     const uint collector = texelFetch(collectorIndex, ivec3(min(voxel, params.size - 0.5)), 0).r;
     if (collector >= params.collectors) return;
@@ -71,11 +80,7 @@ void record(TraceState state, vec3 voxel, uint lane, inout uint count) {
     const vec3 power = light * state.weight;
     records[count * params.invocations + lane] =
         PhotonRecord(collector, packDirection(state.direction), packPower(power));
-    if (params.depositEdge > 0) {
-        const ivec3 cell = min(ivec3(voxel) / params.depositEdge, params.depositCells - 1);
-        const uint index = (cell.z * params.depositCells.y + cell.y) * params.depositCells.x + cell.x;
-        atomicAdd(deposits[params.depositBase + index], int64_t(roundEven(COEFFICIENT_SCALE * luminance(power))));
-    }
+    if (params.depositEdge > 0) deposit(voxel, state.direction, COEFFICIENT_SCALE * luminance(power));
     atomicAdd(collectorCounts[collector], 1u);
     ++count;
 }

@@ -129,12 +129,22 @@ struct LightFieldPush {
     ivec3 grid;  // cells
     int edge;    // of a cell, voxels
     vec3 scale;  // cells → texture coordinates
+    vec3 eye;    // voxel coordinates
+    mat3 voxelToWorld;
+};
+
+/// What photons counted in its cells, against what their collectors have there.
+struct LightCountsPush {
+    ivec3 size;  // voxels
+    ivec3 grid;  // cells
+    int edge;    // of a cell, voxels
     ivec3 depositCells;
     int depositsAcross;  // cells of the deposits along an edge of a cell
     uint depositBase;
     float depositScale;  // counts → W
     float massScale;     // ∫ normalised density [voxels] → ∫ σt' dV [m²]
-    float prior;         // W of deposits that are taken for granted in each cell, as the collectors have them
+    float photon;        // mean luminance of a photon [W]
+    float moment;        // of the phase function, of band 1
 };
 
 #ifdef __cplusplus
@@ -148,7 +158,8 @@ static_assert(sizeof(DrawPush) == 20 && offsetof(DrawPush, count) == 12);
 static_assert(sizeof(Pixel) == 48 && offsetof(Pixel, front) == 44);
 static_assert(sizeof(SunDepthPush) == 80 && offsetof(SunDepthPush, firstRow) == 76);
 static_assert(sizeof(CollectorSunPush) == 64 && offsetof(CollectorSunPush, collectors) == 60);
-static_assert(sizeof(LightFieldPush) == 72 && offsetof(LightFieldPush, prior) == 68);
+static_assert(sizeof(LightFieldPush) == 88 && offsetof(LightFieldPush, voxelToWorld) == 52);
+static_assert(sizeof(LightCountsPush) == 64 && offsetof(LightCountsPush, moment) == 60);
 #endif
 
 SHARED_END

@@ -11,6 +11,7 @@ namespace {
 
 namespace spirv {
 #include "spirv/draw/light_cells.comp.h"
+#include "spirv/draw/light_counts.comp.h"
 #include "spirv/draw/light_mass.comp.h"
 #include "spirv/draw/light_smooth.comp.h"
 }  // namespace spirv
@@ -19,10 +20,7 @@ namespace spirv {
 /// asks (docs/error-time.md has the figures). Where there are few photons noise is the lesser evil, so that there are
 /// this many cells along the longest side at least.
 constexpr double photonsInCell = 16.0, fewestAlong = 32.0;
-/// Photons that a cell is taken to have met, as many as its collectors have there on average, beside those that were
-/// counted: what holds the noise of cells that few meet (docs/error-time.md).
-constexpr double priorPhotons = 10.0;
-/// 64 MiB each for the cells and for the smoothed field.
+/// 64 MiB each for the counts, the cells and the smoothed field.
 constexpr std::uint64_t maxCells = 1ULL << 22U;
 
 /// Voxels with density.
@@ -54,9 +52,12 @@ LightField::LightField(gpu::Context& context, const cloud::Cloud& cloud, const c
       grid_(grid),
       depositGrid_(deposits),
       massProgram_(context, "light_mass", spirv::light_mass_comp),
+      countsProgram_(context, "light_counts", spirv::light_counts_comp),
       cellsProgram_(context, "light_cells", spirv::light_cells_comp),
       smoothProgram_(context, "light_smooth", spirv::light_smooth_comp),
       mass_(context, "light cell mass", grid_.cells, VK_FORMAT_R32_SFLOAT),
+      counts_(context, "light counts", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
+      ownShare_(context, "own share", grid_.cells, VK_FORMAT_R32_SFLOAT),
       cells_(context, "light cells", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
       image_(context, "light field", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT) {
     gpu::Commands commands(context);
@@ -73,8 +74,6 @@ shared::LightFieldPush LightField::push() const {
     push.grid = grid_.cells;
     push.edge = grid_.edge;
     push.scale = 1.0F / glm::vec3(grid_.cells);
-    push.depositCells = depositGrid_.cells;
-    push.depositsAcross = grid_.edge / depositGrid_.edge;
     return push;
 }
 
@@ -82,25 +81,50 @@ glm::vec3 LightField::scale() const {
     return 1.0F / glm::vec3(grid_.cells * grid_.edge);
 }
 
-void LightField::record(gpu::Commands& commands, const gpu::Buffer& radiance, const Deposits& deposits) const {
-    shared::LightFieldPush values = push();
+void LightField::recordCounts(gpu::Commands& commands, const gpu::Buffer& fluences, const Deposits& deposits) const {
+    shared::LightCountsPush values{};
+    values.size = cloud_.size;
+    values.grid = grid_.cells;
+    values.edge = grid_.edge;
+    values.depositCells = depositGrid_.cells;
+    values.depositsAcross = grid_.edge / depositGrid_.edge;
     values.depositBase = deposits.base;
     values.depositScale = static_cast<float>(deposits.unit);
     values.massScale = static_cast<float>(deposits.massScale);
-    values.prior = static_cast<float>(priorPhotons * deposits.photonPower);
+    values.photon = static_cast<float>(deposits.photonPower);
+    values.moment = static_cast<float>(deposits.moment);
+    commands.pass("light counts");
+    commands.dispatch(countsProgram_,
+                      {{"density", cloud_.density, gpu::Sampler::nearest},
+                       {"collectorIndex", cloud_.collectorIndex, gpu::Sampler::nearest},
+                       {"Fluences", fluences},
+                       {"Deposits", deposits.counts},
+                       {"cellMass", mass_, gpu::Sampler::nearest},
+                       {"counts", counts_},
+                       {"ownShare", ownShare_}},
+                      values, gpu::linearGroups(grid_.count(), 64));
+    commands.barrier("light counts");
+}
+
+void LightField::record(gpu::Commands& commands, const glm::vec3& eyeVoxel, const gpu::Image& radiance) const {
+    shared::LightFieldPush values = push();
+    values.eye = eyeVoxel;
+    values.voxelToWorld = glm::mat3(cloud_.toWorld.linear);
     const glm::uvec3 groups = gpu::linearGroups(grid_.count(), 64);
     commands.pass("light field");
     commands.dispatch(cellsProgram_,
                       {{"density", cloud_.density, gpu::Sampler::nearest},
                        {"collectorIndex", cloud_.collectorIndex, gpu::Sampler::nearest},
-                       {"Radiance", radiance},
-                       {"cells", cells_},
-                       {"cellMass", mass_, gpu::Sampler::nearest},
-                       {"Deposits", deposits.counts}},
+                       {"radiance", radiance, gpu::Sampler::nearest},
+                       {"counts", counts_, gpu::Sampler::nearest},
+                       {"cells", cells_}},
                       values, groups);
     commands.barrier("light cells");
-    commands.dispatch(smoothProgram_, {{"cells", cells_, gpu::Sampler::linear}, {"lightField", image_}}, values,
-                      groups);
+    commands.dispatch(smoothProgram_,
+                      {{"cells", cells_, gpu::Sampler::linear},
+                       {"ownShare", ownShare_, gpu::Sampler::nearest},
+                       {"lightField", image_}},
+                      values, groups);
 }
 
 }  // namespace lumulus::draw

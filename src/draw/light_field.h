@@ -18,20 +18,23 @@ struct Deposits {
     double unit = 0.0;         ///< W of a count
     double photonPower = 0.0;  ///< mean luminance of a photon [W]
     double massScale = 0.0;    ///< ∫ normalised density [voxels] → ∫ σt' dV [m²]
+    double moment = 0.0;       ///< of the phase function, of band 1
 };
 
-/// In-scattered radiance towards the eye as a smooth field: the collectors' values, weighted by mass, on a grid of
-/// cells, scaled by what was counted there. Collectors drawn one by one would show as blocks, and their noise as grain.
+/// In-scattered radiance towards the eye as a smooth field: the collectors' values on a grid of cells, scaled and
+/// turned by what was counted there. Collectors drawn one by one would show as blocks, and their noise as grain.
 class LightField {
   public:
     /// The cells of `deposits` are those of `grid` or finer.
     LightField(gpu::Context& context, const cloud::Cloud& cloud, const cloud::CellGrid& grid,
                const cloud::CellGrid& deposits);
 
-    /// Records what fills the grid from the collectors' radiance and fluence (vec4 each) and the deposits.
-    void record(gpu::Commands& commands, const gpu::Buffer& radiance, const Deposits& deposits) const;
+    /// Records what is the same for all views: the deposits against the collectors' CollectorFluence.
+    void recordCounts(gpu::Commands& commands, const gpu::Buffer& fluences, const Deposits& deposits) const;
+    /// Records what fills the grid for an eye, from the collectors' radiance towards it.
+    void record(gpu::Commands& commands, const glm::vec3& eyeVoxel, const gpu::Image& radiance) const;
 
-    /// (Σ ρ L, Σ ρ), to be divided after the look-up.
+    /// (Σ L, Σ 1) of cells with density, to be divided after the look-up.
     const gpu::Image& image() const { return image_; }
     /// Voxel coordinates → texture coordinates.
     glm::vec3 scale() const;
@@ -40,8 +43,10 @@ class LightField {
   private:
     const cloud::Cloud& cloud_;
     cloud::CellGrid grid_, depositGrid_;
-    gpu::Program<shared::LightFieldPush> massProgram_, cellsProgram_, smoothProgram_;
-    gpu::Image mass_, cells_, image_;
+    gpu::Program<shared::LightFieldPush> massProgram_;
+    gpu::Program<shared::LightCountsPush> countsProgram_;
+    gpu::Program<shared::LightFieldPush> cellsProgram_, smoothProgram_;
+    gpu::Image mass_, counts_, ownShare_, cells_, image_;
 
     shared::LightFieldPush push() const;
 };

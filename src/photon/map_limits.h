@@ -11,7 +11,7 @@ struct MapSize {
     int generations = 20;  ///< slots of the ring
     bool keepRing = false;
     bool keepHalves = false;     ///< even and odd generations apart
-    std::uint64_t deposits = 0;  ///< cells
+    std::uint64_t deposits = 0;  ///< counts of them
 };
 
 /// Bytes of one generation: [collector][RGB][bands²] and [deposit], int64.

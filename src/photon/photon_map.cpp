@@ -13,6 +13,7 @@
 #include "photon/emission.h"
 #include "photon/generation.h"
 #include "photon/map_limits.h"
+#include "shared/deposits.h"
 #include "shared/photon.h"
 
 namespace lumulus::photon {
@@ -54,7 +55,7 @@ double greatestFlux(const scene::Sun& sun, const Emission& emission, const glm::
 /// Of all collectors together, where there is room for them.
 std::uint32_t coefficientsOf(const gpu::Context& context, std::uint32_t collectors, const Options& options) {
     const MapSize size{collectors,       options.bands,      options.generations,
-                       options.keepRing, options.keepHalves, options.deposits.count()};
+                       options.keepRing, options.keepHalves, shared::depositCounts(options.deposits.cells)};
     requireMapFits(size, options.memoryBudget, context.limits().maxStorageBufferRange);
     return static_cast<std::uint32_t>(generationBytes(size) / sizeof(std::int64_t));
 }
@@ -76,7 +77,8 @@ struct PhotonMap::State {
     Program<shared::AccumulatePush> accumulateProgram;
     Program<shared::ReconstructPush> reconstructProgram;
 
-    Buffer moments, places, generation, oddGeneration, sum, saturated, radiance;
+    Buffer moments, places, generation, oddGeneration, sum, saturated, fluences;
+    gpu::Image radiance;
     std::vector<Buffer> slots;
     gpu::Commands commands;
 
@@ -121,7 +123,10 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Cloud& preparedCl
                     Memory::device),
       sum(context, "ring sum", coefficients * sizeof(std::int64_t), Memory::device),
       saturated(context, "saturated", sizeof(std::uint32_t), Memory::host),
-      radiance(context, "collector radiance", collectors * sizeof(glm::vec4), Memory::device),
+      fluences(context, "collector fluences", collectors * sizeof(shared::CollectorFluence), Memory::device),
+      radiance(context, "collector radiance",
+               glm::ivec2(shared::RADIANCE_WIDTH, collectors / shared::RADIANCE_WIDTH + 1),
+               VK_FORMAT_R32G32B32A32_SFLOAT),
       commands(context),
       massExtinction(medium.extinction) {
     if (options.keepRing)
@@ -165,7 +170,7 @@ double PhotonMap::State::unsettledUnit() const {
 void PhotonMap::State::recordAdd(const Buffer& from, const Buffer& to, int shift) {
     const std::size_t slot = static_cast<std::size_t>((traced - 1) % options.generations);
     // Without a ring the slot is not read or written; another buffer stands in its place.
-    const Buffer& oldest = options.keepRing ? slots[slot] : radiance;
+    const Buffer& oldest = options.keepRing ? slots[slot] : fluences;
     commands.dispatch(
         accumulateProgram, {{"Generation", from}, {"Slot", oldest}, {"Sum", to}, {"Saturated", saturated}},
         shared::AccumulatePush{coefficients, shift, options.keepRing ? 1U : 0U}, linearGroups(coefficients, 64));
@@ -254,18 +259,24 @@ void PhotonMap::reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, 
     push.eye = eyeVoxel;
     push.voxelToWorld = glm::mat3(s.cloud.toWorld.linear);
     commands.pass("reconstruct");
-    commands.dispatch(
-        s.reconstructProgram,
-        {{"Sum", *light.counts}, {"Moments", s.moments}, {"Collectors", s.places}, {"Radiance", s.radiance}}, push,
-        linearGroups(s.collectors, 64));
+    commands.dispatch(s.reconstructProgram,
+                      {{"Sum", *light.counts},
+                       {"Moments", s.moments},
+                       {"Collectors", s.places},
+                       {"Fluences", s.fluences},
+                       {"radiance", s.radiance}},
+                      push, linearGroups(s.collectors, 64));
 }
 
 void PhotonMap::settle() {
     state_->settle();
 }
 
-const gpu::Buffer& PhotonMap::radiance() const {
+const gpu::Image& PhotonMap::radiance() const {
     return state_->radiance;
+}
+const gpu::Buffer& PhotonMap::fluences() const {
+    return state_->fluences;
 }
 int PhotonMap::generationsInRing() const {
     return state_->options.keepRing ? std::min(state_->traced, state_->options.generations) : state_->traced;
@@ -274,7 +285,7 @@ Halves PhotonMap::halves() const {
     return state_->halves;
 }
 std::uint32_t PhotonMap::depositBase() const {
-    return state_->coefficients - static_cast<std::uint32_t>(state_->options.deposits.count());
+    return state_->coefficients - shared::depositCounts(state_->options.deposits.cells);
 }
 double PhotonMap::photonPower() const {
     const double photons = static_cast<double>(state_->options.photonsPerGeneration) * std::max(1, generationsInRing());

@@ -61,7 +61,7 @@ struct Light {
 };
 
 /// The photon map: a ring of generations, each [collector][RGB][bands²] int64 of spherical-harmonic coefficients and
-/// then the deposits of the cells, int64, and their exact sum.
+/// then the deposits (shared/deposits.h), int64, and their exact sum.
 class PhotonMap {
   public:
     /// `cloud` must outlive the map. Errors: InputError where the coefficients do not fit into the budget, or those of
@@ -80,10 +80,11 @@ class PhotonMap {
     Light light(Part part = Part::all);
     Halves halves() const;
 
-    /// Radiance of every collector towards the eye, and the luminance of its fluence [W·m⁻²], as vec4 in `radiance()`:
-    /// recorded into `commands`.
+    /// Radiance of every collector towards the eye, and its light of all directions [W·m⁻²]: recorded into `commands`.
     void reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, const Light& light);
-    const gpu::Buffer& radiance() const;
+    /// vec4 each, in rows of RADIANCE_WIDTH, and CollectorFluence.
+    const gpu::Image& radiance() const;
+    const gpu::Buffer& fluences() const;
 
     /// Where the deposits begin in the counts.
     std::uint32_t depositBase() const;

@@ -9,9 +9,10 @@ namespace {
 
 constexpr double fourPi = 4.0 * glm::pi<double>();
 
-/// 1 − g of the widest lobe that is worth its branches: at .15 (the Disney cloud) they save nearly half of the time
-/// to an error, at .25 (cirrus) nothing but the last fireflies.
-constexpr double widest = 0.3;
+/// 1 − g of the widest lobe that is worth its branches, whatever the view: at .15 they save half of the time to an
+/// error where the camera looks away from the sun and cost three times as much where it looks towards it
+/// (docs/error-time.md).
+constexpr double widest = 0.1;
 
 /// Below it rounding of directions would show.
 constexpr double narrowest = 1e-9;

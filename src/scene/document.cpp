@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <utility>
+
 #include "scene/arrays.h"
+#include "scene/quality.h"
 #include "scene/schema.h"
 
 namespace lumulus::scene {
@@ -30,13 +34,21 @@ may stand for a whole number. NaN and infinity are refused everywhere.
   `cloud.0.phase.model` or of the `kind` of a medium or surface takes out the parameters that it does not
   have.
 - `--quality` stands below the file: it changes only what the scene leaves out.
-
-| quality | photons | generations | bands |
-|---|---|---|---|
-| `draft` | 200000 | 10 | 3 |
-| `interactive` | 1000000 | 20 | 4 |
-| `final` | 8000000 | 40 | 6 |
 )";
+
+std::string qualityTable() {
+    constexpr std::array<std::pair<const char*, Quality>, 3> presets = {
+        {{"draft", Quality::draft}, {"interactive", Quality::interactive}, {"final", Quality::final}}};
+    std::string text = "\n| quality | photons | generations | bands | forward_cut |\n|---|---|---|---|---|\n";
+    for (const auto& [name, quality] : presets) {
+        Scene scene;
+        applyQuality(scene, quality);
+        const PhotonMap& map = scene.photonMap;
+        text += fmt::format("| `{}` | {} | {} | {} | {} |\n", name, map.photons, map.generations, map.bands,
+                            map.forwardCut);
+    }
+    return text;
+}
 
 std::string heading(std::string_view section) {
     if (const ArraySection* array = arrayOf(section); array != nullptr && array->name == section)
@@ -68,7 +80,7 @@ std::string fallbackCell(const Key& key) {
 }  // namespace
 
 std::string sceneFormatMarkdown() {
-    std::string text(introduction);
+    std::string text = std::string(introduction) + qualityTable();
     std::string_view section;
     for (const Key& key : schema()) {
         const std::size_t dot = key.name.rfind('.');

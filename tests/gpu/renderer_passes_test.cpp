@@ -53,7 +53,8 @@ TEST_P(EachMode, SunAndSky) {
     const Frame frame = test::render(scene);
     std::vector<std::string> expected{"trace", "sort", "gather", "accumulate", "sun depth"};
     if (GetParam() == scene::DrawMode::billboards) expected.emplace_back("collector sun");
-    for (const std::string& pass : {std::string("reconstruct"), std::string("light field"), drawPass(GetParam())})
+    for (const std::string& pass :
+         {std::string("reconstruct"), std::string("light counts"), std::string("light field"), drawPass(GetParam())})
         expected.push_back(pass);
     EXPECT_THAT(frame.passes(), ElementsAreArray(expected));
     EXPECT_EQ(frame.statistics.photons, 4000U);

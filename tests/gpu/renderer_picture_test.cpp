@@ -66,7 +66,7 @@ TEST_P(Picture, DoesNotDependOnThePlace) {
 TEST_P(Picture, WhiteFurnaceIsInvisible) {
     scene.sun.irradiance = dvec3(0.0);
     scene.sky.radiance = dvec3(2.0, 1.0, 0.5);
-    scene.photonMap.photons = 800'000;
+    scene.photonMap.photons = 1'600'000;
     for (const double cut : {0.0, 12.0}) {
         scene.photonMap.forwardCut = cut;
         const Frame frame = test::render(scene);

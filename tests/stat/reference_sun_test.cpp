@@ -93,19 +93,19 @@ INSTANTIATE_TEST_SUITE_P(Lobes, SunThroughABall,
 TEST(Aureole, HasThePeakOfThePhaseFunction) {
     const dvec3 sun = glm::normalize(dvec3(1.0, 2.0, -0.5));
     for (const scene::Phase& phase :
-         {scene::Phase{scene::PhaseModel::henyeyGreenstein, 0.85, 20.0},
+         {scene::Phase{scene::PhaseModel::henyeyGreenstein, 0.95, 20.0},
           scene::Phase{scene::PhaseModel::henyeyGreenstein, 0.9999, 20.0},
-          scene::Phase{scene::PhaseModel::schlick, 0.9, 20.0}, scene::Phase{scene::PhaseModel::droplet, 0.0, 20.0}}) {
+          scene::Phase{scene::PhaseModel::schlick, 0.93, 20.0}, scene::Phase{scene::PhaseModel::droplet, 0.0, 20.0}}) {
         const PhaseFunction function(phase);
         const std::optional<Aureole> aureole = Aureole::of(function, sun, 0.0);
         ASSERT_TRUE(aureole);
         EXPECT_NEAR(aureole->density(sun) / function.evaluate(0.0), 1.0, 1e-9);
         EXPECT_NEAR(aureole->importance(sun), 1.0 + 4.0 * glm::pi<double>() * aureole->density(sun), 1e-9);
-        const std::optional<Aureole> ofAWideSun = Aureole::of(function, sun, 0.2);
+        const std::optional<Aureole> ofAWideSun = Aureole::of(function, sun, 0.08);
         ASSERT_TRUE(ofAWideSun);
-        EXPECT_NEAR(ofAWideSun->density(sun), 1.8 / (4.0 * glm::pi<double>() * 0.04), 1e-9);
+        EXPECT_NEAR(ofAWideSun->density(sun), 1.92 / (4.0 * glm::pi<double>() * 0.0064), 1e-9);
     }
-    EXPECT_FALSE(Aureole::of(PhaseFunction({scene::PhaseModel::henyeyGreenstein, 0.6, 20.0}), sun, 0.0));
+    EXPECT_FALSE(Aureole::of(PhaseFunction({scene::PhaseModel::henyeyGreenstein, 0.85, 20.0}), sun, 0.0));
     EXPECT_FALSE(Aureole::of(PhaseFunction({scene::PhaseModel::henyeyGreenstein, 0.99, 20.0}), sun, 0.5));
 }
 

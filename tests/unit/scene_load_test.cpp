@@ -256,7 +256,9 @@ TEST(Quality, PresetsStandBelowTheFile) {
     EXPECT_EQ(map("", Quality::draft).photons, 200000);
     EXPECT_EQ(map("", Quality::draft).bands, 3);
     EXPECT_EQ(map("", Quality::interactive).generations, 20);
-    EXPECT_EQ(map("", Quality::final).photons, 16000000);
+    EXPECT_EQ(map("", Quality::final).photons, 24000000);
+    EXPECT_EQ(map("", Quality::final).forwardCut, 10.0);
+    EXPECT_EQ(map("[photon_map]\nforward_cut = 3", Quality::final).forwardCut, 3.0);
     const PhotonMap mixed = map("[photon_map]\nbands = 7", Quality::draft, {"photon_map.photons=5"});
     EXPECT_EQ(mixed.bands, 7);
     EXPECT_EQ(mixed.photons, 5);

@@ -28,6 +28,7 @@ namespace spirv {
 #include "spirv/draw/billboards.comp.h"
 #include "spirv/draw/collector_sun.comp.h"
 #include "spirv/draw/light_cells.comp.h"
+#include "spirv/draw/light_counts.comp.h"
 #include "spirv/draw/sun_depth.comp.h"
 #include "spirv/fog/chain_fetch.comp.h"
 #include "spirv/fog/exact.comp.h"
@@ -95,9 +96,9 @@ TEST(SharedLayout, Cloud) {
 
 TEST(SharedLayout, Photon) {
     EXPECT_LAYOUT(trace_comp, TraceParams, worldToCells, size, cells, cellSize, extinction, turnShare, albedo,
-                  straightWeight, turnFraction, asymmetry, sunDirection, sunCone, faceArea, faceSize, sunThrough, sunPower, skyPower,
-                  sunPhotons, photons, generation, stream, collectors, invocations, recordCapacity, stepLimit,
-                  collisionLimit, depositBase, depositEdge, depositCells);
+                  straightWeight, turnFraction, asymmetry, sunDirection, sunCone, faceArea, faceSize, sunThrough,
+                  sunPower, skyPower, sunPhotons, photons, generation, stream, collectors, invocations, recordCapacity,
+                  stepLimit, collisionLimit, depositBase, depositEdge, depositCells);
     EXPECT_LAYOUT(trace_comp, TraceState, cell, offset, direction, weight, depth, photon, draws, collisions, turns,
                   alive);
     EXPECT_LAYOUT(trace_comp, PhotonRecord, collector, direction, power);
@@ -105,6 +106,7 @@ TEST(SharedLayout, Photon) {
                   transmittedDiffuse, transmittedDirect, pending, unused);
     EXPECT_PUSH(gather_comp, GatherPush, collectors, invocations, recordCapacity);
     EXPECT_PUSH(accumulate_comp, AccumulatePush, coefficients, shift, keepSlots);
+    EXPECT_LAYOUT(reconstruct_comp, CollectorFluence, flux, fluence);
     EXPECT_PUSH(reconstruct_comp, ReconstructPush, collectors, scale, eye, voxelToWorld);
 }
 
@@ -119,8 +121,9 @@ TEST(SharedLayout, Draw) {
     EXPECT_PUSH(billboards_comp, DrawPush, what, first, count);
     EXPECT_LAYOUT(billboards_comp, Pixel, radiance, cloud, transmittance, alpha, depth, front);
     EXPECT_PUSH(sun_depth_comp, SunDepthPush, gridToVoxel, originVoxel, inverseSize, grid, step, firstRow);
-    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, scale, depositCells, depositsAcross, depositBase,
-                depositScale, massScale, prior);
+    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, scale, eye, voxelToWorld);
+    EXPECT_PUSH(light_counts_comp, LightCountsPush, size, grid, edge, depositCells, depositsAcross, depositBase,
+                depositScale, massScale, photon, moment);
     EXPECT_PUSH(collector_sun_comp, CollectorSunPush, voxelToTexture, textureOffset, inverseSize, collectors);
 }
 

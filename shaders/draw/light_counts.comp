@@ -1,0 +1,101 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+// Light that photons counted in each cell of the light field against what its collectors have there on average, whatever
+// the view: collectors know where light goes, cells how much there is and, less sharply, where most of it goes.
+#include "shared/deposits.h"
+#include "shared/draw.h"
+#include "shared/photon.h"
+#include "lib/linear.glsl"
+
+layout(local_size_x = 64) in;
+layout(binding = 0) uniform sampler3D density;
+layout(binding = 1) uniform usampler3D collectorIndex;
+layout(binding = 2, scalar) readonly buffer Fluences { CollectorFluence fluences[]; };
+layout(binding = 3, scalar) readonly buffer Deposits { int64_t deposits[]; };
+layout(binding = 4) uniform sampler3D cellMass;
+layout(binding = 5) uniform writeonly image3D counts;    // gain towards a direction (vector), ratio; 0: no density
+layout(binding = 6) uniform writeonly image3D ownShare;  // of the cell in the smoothed field
+layout(push_constant, scalar) uniform Push { LightCountsPush push; };
+
+const float PI = 3.14159265;
+/// Photons that a cell is taken to have met, as many as its collectors have there on average, beside those that were
+/// counted: what holds the noise of cells that few meet. The same for the cubes of flux, which hold eight cells.
+const float PRIOR = 10.0, FLUX_PRIOR = 40.0;
+/// Part of the difference of directions that is believed: the bands above, which would follow, do not.
+const float TURNED = 0.7;
+/// Photons in a cell that make it count as much as the mean of its surroundings.
+const float OWN = 150.0;
+
+/// Counts of the cells of deposits from `first` on, `across` along each edge.
+float countedIn(ivec3 first, int across) {
+    const ivec3 end = min(first + across, push.depositCells);
+    int64_t sum = 0l;
+    for (int z = first.z; z < end.z; ++z)
+        for (int y = first.y; y < end.y; ++y)
+            for (int x = first.x; x < end.x; ++x)
+                sum += deposits[push.depositBase + numberIn(push.depositCells, ivec3(x, y, z))];
+    return push.depositScale * float(sum);
+}
+
+/// The same of the flux in cubes; `first` and `across` are multiples of FLUX_EDGE.
+vec3 fluxIn(ivec3 first, int across) {
+    const ivec3 end = min(first + across, push.depositCells);
+    vec3 sum = vec3(0.0);
+    for (int z = first.z; z < end.z; z += FLUX_EDGE)
+        for (int y = first.y; y < end.y; y += FLUX_EDGE)
+            for (int x = first.x; x < end.x; x += FLUX_EDGE) {
+                const uint place = push.depositBase + fluxPlace(push.depositCells, ivec3(x, y, z));
+                sum += vec3(deposits[place], deposits[place + 1u], deposits[place + 2u]);
+            }
+    return push.depositScale * sum;
+}
+
+/// How much the light's mean direction in the cubes around a cell differs from that of its collectors, flux/fluence.
+vec3 turnedBy(ivec3 cell, vec3 collectors) {
+    const int across = max(push.depositsAcross, FLUX_EDGE);
+    const ivec3 first = cell * push.depositsAcross / across * across;
+    const float amount = countedIn(first, across);
+    return (fluxIn(first, across) - amount * collectors) / (amount + FLUX_PRIOR * push.photon);
+}
+
+void main() {
+    const uint index = linearInvocation(64u);
+    const uvec3 grid = uvec3(push.grid);
+    if (index >= grid.x * grid.y * grid.z) return;
+    const ivec3 cell = ivec3(index % grid.x, (index / grid.x) % grid.y, index / (grid.x * grid.y));
+    const float cellsMass = texelFetch(cellMass, cell, 0).r;
+    if (cellsMass == 0.0) {
+        imageStore(counts, cell, vec4(0.0));
+        imageStore(ownShare, cell, vec4(0.0));
+        return;
+    }
+    const ivec3 lower = push.edge * cell;
+    const ivec3 upper = min(lower + push.edge, push.size);
+    vec4 light = vec4(0.0);  // flux, fluence
+    float mass = 0.0;
+    for (int z = lower.z; z < upper.z; ++z)
+        for (int y = lower.y; y < upper.y; ++y)
+            for (int x = lower.x; x < upper.x; ++x) {
+                const float here = texelFetch(density, ivec3(x, y, z), 0).r;
+                if (here > 0.0) {
+                    const CollectorFluence of = fluences[texelFetch(collectorIndex, ivec3(x, y, z), 0).r];
+                    light += here * vec4(of.flux, of.fluence);
+                    mass += here;
+                }
+            }
+    vec4 result = vec4(0.0, 0.0, 0.0, 1.0);
+    float own = 0.0;
+    if (light.w > 0.0 && push.photon > 0.0) {
+        light /= mass;
+        const float counted = countedIn(cell * push.depositsAcross, push.depositsAcross);
+        const float expected = light.w * cellsMass * push.massScale;
+        const float prior = PRIOR * push.photon;
+        const float ratio = (counted + prior) / (expected + prior);
+        const vec3 turned = turnedBy(cell, light.xyz / light.w);
+        result = vec4(3.0 / (4.0 * PI) * push.moment * TURNED * ratio * light.w * turned, ratio);
+        own = counted / (counted + OWN * push.photon);
+    }
+    imageStore(counts, cell, result);
+    imageStore(ownShare, cell, vec4(own));
+}
