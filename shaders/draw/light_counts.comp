@@ -15,7 +15,7 @@ layout(binding = 2, scalar) readonly buffer Fluences { CollectorFluence fluences
 layout(binding = 3, scalar) readonly buffer Deposits { int64_t deposits[]; };
 layout(binding = 4) uniform sampler3D cellMass;
 layout(binding = 5) uniform writeonly image3D counts;    // gain towards a direction (vector), ratio; 0: no density
-layout(binding = 6) uniform writeonly image3D ownShare;  // of the cell in the smoothed field
+layout(binding = 6) uniform writeonly image3D ownShare;  // of the cell in the smoothed field; −1: nothing is near
 layout(push_constant, scalar) uniform Push { LightCountsPush push; };
 
 const float PI = 3.14159265;
@@ -59,6 +59,16 @@ vec3 turnedBy(ivec3 cell, vec3 collectors) {
     return (fluxIn(first, across) - amount * collectors) / (amount + FLUX_PRIOR * push.photon);
 }
 
+/// Whether there is density in a cell or one beside it.
+bool nearDensity(ivec3 cell) {
+    float mass = 0.0;
+    for (int z = -1; z <= 1; ++z)
+        for (int y = -1; y <= 1; ++y)
+            for (int x = -1; x <= 1; ++x)
+                mass += texelFetch(cellMass, clamp(cell + ivec3(x, y, z), ivec3(0), push.grid - 1), 0).r;
+    return mass > 0.0;
+}
+
 void main() {
     const uint index = linearInvocation(64u);
     const uvec3 grid = uvec3(push.grid);
@@ -67,7 +77,7 @@ void main() {
     const float cellsMass = texelFetch(cellMass, cell, 0).r;
     if (cellsMass == 0.0) {
         imageStore(counts, cell, vec4(0.0));
-        imageStore(ownShare, cell, vec4(0.0));
+        imageStore(ownShare, cell, vec4(nearDensity(cell) ? 0.0 : -1.0));
         return;
     }
     const ivec3 lower = push.edge * cell;
