@@ -34,7 +34,8 @@ void main() {
                 const float mass = texelFetch(density, ivec3(x, y, z), 0).r;
                 if (mass > 0.0) {
                     const uint collector = texelFetch(collectorIndex, ivec3(x, y, z), 0).r;
-                    light += mass * texelFetch(radiance, ivec2(collector % RADIANCE_WIDTH, collector / RADIANCE_WIDTH), 0);
+                    const ivec2 place = ivec2(collector % RADIANCE_WIDTH, collector / RADIANCE_WIDTH);
+                    light += mass * texelFetch(radiance, place, 0);
                 }
             }
     // Cells count alike, however thin: weighted by mass, what is bright and thin would take the colour of what is behind.

@@ -3,15 +3,13 @@
 #extension GL_EXT_shader_atomic_int64 : require
 // One generation of photons. Each invocation walks photon after photon (its number, plus the number of invocations, …)
 // and stops when its share of the record buffer is full or its steps are spent; the next dispatch goes on from there.
-#include "shared/deposits.h"
 #include "shared/photon.h"
 #include "shared/rng.h"
 #include "shared/phase.h"
 #include "shared/phase_table.h"
 #include "lib/density.glsl"
 #include "lib/emission.glsl"
-#include "lib/luminance.glsl"
-#include "lib/packing.glsl"
+#include "lib/store.glsl"
 #include "lib/tracking.glsl"
 
 layout(local_size_x = 64) in;
@@ -21,16 +19,12 @@ layout(constant_id = 2) const bool ABSORBS = false;     // an albedo below 1
 layout(constant_id = 3) const bool PERIODIC = false;    // a plane-parallel layer across y
 
 layout(binding = 0) uniform sampler3D density;
-layout(binding = 1) uniform usampler3D collectorIndex;
 layout(binding = 2, scalar) readonly buffer Params { TraceParams storedParams; };
 layout(binding = 3, r32f) uniform readonly image3D majorants;  // normalised; negative: distances in empty space
 layout(binding = 4, scalar) readonly buffer InverseCdf { float inverseCdf[]; };
 layout(binding = 5, scalar) buffer States { TraceState states[]; };
-layout(binding = 6, scalar) writeonly buffer Records { PhotonRecord records[]; };
-layout(binding = 7, scalar) buffer RecordCounts { uint recordCounts[]; };        // of each invocation
-layout(binding = 8, scalar) buffer CollectorCounts { uint collectorCounts[]; };  // of each collector
+layout(binding = 7, scalar) buffer RecordCounts { uint recordCounts[]; };  // of each invocation
 layout(binding = 9, scalar) buffer Counters { TraceCounters counters; };
-layout(binding = 10, scalar) buffer Deposits { int64_t deposits[]; };
 
 /// Cells that a photon may cross before the lanes that have met something go on.
 const int CROSSINGS = 16;
@@ -65,33 +59,17 @@ bool survives(inout TraceState state, vec3 factor, float u) {
     return true;
 }
 
-void deposit(vec3 voxel, vec3 direction, float amount) {
-    const ivec3 cell = min(ivec3(voxel) / params.depositEdge, params.depositCells - 1);
-    const uint flux = params.depositBase + fluxPlace(params.depositCells, cell);
-    atomicAdd(deposits[params.depositBase + numberIn(params.depositCells, cell)], int64_t(roundEven(amount)));
-    for (int axis = 0; axis < 3; ++axis)
-        atomicAdd(deposits[flux + uint(axis)], int64_t(roundEven(amount * direction[axis])));
-}
-
-void record(TraceState state, vec3 voxel, uint lane, inout uint count) {
-    const uint collector = texelFetch(collectorIndex, ivec3(min(voxel, params.size - 0.5)), 0).r;
-    if (collector >= params.collectors) return;
-    const vec3 light = state.photon < params.sunPhotons ? params.sunPower : params.skyPower;
-    const vec3 power = light * state.weight;
-    records[count * params.invocations + lane] =
-        PhotonRecord(collector, packDirection(state.direction), packPower(power));
-    if (params.depositEdge > 0) deposit(voxel, state.direction, COEFFICIENT_SCALE * luminance(power));
-    atomicAdd(collectorCounts[collector], 1u);
-    ++count;
-}
-
 /// A real collision. False: the photon has ended. `turns`: whether it goes on in another direction.
 bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint count, out bool turns) {
     ++state.collisions;
     turns = !TURNS_ONLY || u.x < params.turnShare;
     if (!turns) return survives(state, params.straightWeight, u.y);
     // The sun's first turn is drawn from the optical depths to the sun, not from the map (docs/architecture.md).
-    if (state.turns > 0u || state.photon >= params.sunPhotons) record(state, voxel, lane, count);
+    const bool ofSun = state.photon < params.sunPhotons;
+    if (state.turns > 0u || !ofSun) {
+        const vec3 power = (ofSun ? params.sunPower : params.skyPower) * state.weight;
+        if (store(params, voxel, state.direction, power, count * params.invocations + lane)) ++count;
+    }
     ++state.turns;
     return !ABSORBS || survives(state, params.albedo, u.y);
 }

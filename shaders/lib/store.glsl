@@ -1,0 +1,37 @@
+// What a photon leaves where it turns: a record for the collector of that place, and deposits in the cells around it.
+// It brings its bindings along: trace.comp walks, this file alone writes light.
+#ifndef LUMULUS_LIB_STORE
+#define LUMULUS_LIB_STORE
+
+#extension GL_EXT_shader_atomic_int64 : require
+#include "shared/deposits.h"
+#include "shared/photon.h"
+#include "lib/luminance.glsl"
+#include "lib/packing.glsl"
+
+layout(binding = 1) uniform usampler3D collectorIndex;
+layout(binding = 6, scalar) writeonly buffer Records { PhotonRecord records[]; };
+layout(binding = 8, scalar) buffer CollectorCounts { uint collectorCounts[]; };  // records of each collector
+layout(binding = 10, scalar) buffer Deposits { int64_t deposits[]; };
+
+/// `amount` in counts of the coefficients, luminance.
+void deposit(TraceParams params, vec3 voxel, vec3 direction, float amount) {
+    const ivec3 cell = min(ivec3(voxel) / params.depositEdge, params.depositCells - 1);
+    const uint flux = params.depositBase + fluxPlace(params.depositCells, cell);
+    atomicAdd(deposits[params.depositBase + numberIn(params.depositCells, cell)], int64_t(roundEven(amount)));
+    for (int axis = 0; axis < 3; ++axis)
+        atomicAdd(deposits[flux + uint(axis)], int64_t(roundEven(amount * direction[axis])));
+}
+
+/// Light of this power [record units] that travels in a direction, at a place, as record number `place`. False: no
+/// collector is there, and nothing is left.
+bool store(TraceParams params, vec3 voxel, vec3 direction, vec3 power, uint place) {
+    const uint collector = texelFetch(collectorIndex, ivec3(min(voxel, params.size - 0.5)), 0).r;
+    if (collector >= params.collectors) return false;
+    records[place] = PhotonRecord(collector, packDirection(direction), packPower(power));
+    if (params.depositEdge > 0) deposit(params, voxel, direction, COEFFICIENT_SCALE * luminance(power));
+    atomicAdd(collectorCounts[collector], 1u);
+    return true;
+}
+
+#endif
