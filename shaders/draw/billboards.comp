@@ -19,9 +19,9 @@ layout(binding = 4) uniform sampler3D lightField;
 layout(binding = 5) uniform sampler3D sunDepth;
 layout(binding = 6, scalar) writeonly buffer Pixels { Pixel pixels[]; };
 // As images: their loads are by vectors on lavapipe, those from buffers by lanes.
-layout(binding = 7) uniform sampler2D billboards;  // two texels each
+layout(binding = 7, rgba32f) readonly uniform image2D billboards;  // two texels each
 layout(binding = 8, scalar) readonly buffer TileOffsets { uint tileOffsets[]; };
-layout(binding = 9) uniform usampler2D tileLists;
+layout(binding = 9, r32ui) readonly uniform uimage2D tileLists;
 layout(binding = 10, scalar) readonly buffer Blocks { uvec3 blockGroups; uint blockCount; uint blocks[]; };
 layout(push_constant, scalar) uniform Push { DrawPush push; };
 
@@ -30,27 +30,45 @@ DrawParams params;
 #include "lib/drawn_pixel.glsl"
 #include "lib/stretch.glsl"
 
-Billboard billboardAt(uint entry) {
-    const int number = int(texelFetch(tileLists, ivec2(entry % LIST_WIDTH, entry / LIST_WIDTH), 0).r);
-    const ivec2 place = ivec2(2 * number % LIST_WIDTH, 2 * number / LIST_WIDTH);
-    const vec4 sphere = texelFetch(billboards, place, 0);
-    const vec4 rest = texelFetch(billboards, place + ivec2(1, 0), 0);
-    return Billboard(sphere.xyz, sphere.w, rest.x, rest.y);
-}
+/// What a ray goes through of a billboard.
+struct Chord {
+    ivec2 place;  // texel of the billboard
+    float near, far;
+};
 
-void addBillboard(inout RayLight ray, SunView sun, Billboard billboard, vec3 origin, vec3 direction) {
-    const vec3 centre = billboard.centre - origin;
+bool isHit(Chord chord) { return chord.far > chord.near; }
+
+Chord chordThrough(uint entry, vec3 origin, vec3 direction) {
+    const uint number = imageLoad(tileLists, ivec2(entry % uint(LIST_WIDTH), entry / uint(LIST_WIDTH))).r;
+    const ivec2 place = ivec2(2u * number % uint(LIST_WIDTH), 2u * number / uint(LIST_WIDTH));
+    const vec4 sphere = imageLoad(billboards, place);
+    const vec3 centre = sphere.xyz - origin;
     const float along = dot(centre, direction);
     const vec3 closest = centre - along * direction;
-    const float squared = billboard.radius * billboard.radius - dot(closest, closest);
-    if (squared <= 0.0) return;
-    const float halfChord = sqrt(squared);
-    const float near = max(along - halfChord, 0.0), far = along + halfChord;
-    if (far <= near) return;
-    const float thickness = billboard.extinction * (far - near);
-    const vec3 seen = origin + mix(near, far, seenAt(thickness, 0.5)) * direction;
-    addStretch(ray, sun, near, far, thickness, params.field.eyeVoxel + params.field.worldToVoxel * seen,
-               SUN ? max(billboard.sunDepth, sunDepthAt(params.field.eyeVoxel + params.field.worldToVoxel * seen)) : 0.0);
+    const float squared = sphere.w * sphere.w - dot(closest, closest);
+    const float halfChord = sqrt(max(squared, 0.0));
+    return Chord(place, max(along - halfChord, 0.0), squared > 0.0 ? along + halfChord : 0.0);
+}
+
+void addChord(inout RayLight ray, SunView sun, Chord chord, vec3 origin, vec3 direction) {
+    const vec2 rest = imageLoad(billboards, chord.place + ivec2(1, 0)).xy;  // extinction, the sun's depth
+    const float thickness = rest.x * (chord.far - chord.near);
+    const vec3 seen = origin + mix(chord.near, chord.far, seenAt(thickness, 0.5)) * direction;
+    const vec3 voxel = params.field.eyeVoxel + params.field.worldToVoxel * seen;
+    addStretch(ray, sun, chord.near, chord.far, thickness, voxel, SUN ? max(rest.y, sunDepthAt(voxel)) : 0.0);
+}
+
+/// Through the list from `next` to `last`. The billboard that is met next is looked for first and lit only then: lanes that
+/// have nothing to light would wait for those that have.
+RayLight throughList(uint next, uint last, SunView sun, vec3 origin, vec3 direction) {
+    RayLight ray = emptyRay();
+    const float opaque = opaqueDepth();
+    while (next < last && ray.depth < opaque) {
+        Chord chord = chordThrough(next++, origin, direction);
+        while (!isHit(chord) && next < last) chord = chordThrough(next++, origin, direction);
+        if (isHit(chord)) addChord(ray, sun, chord, origin, direction);
+    }
+    return ray;
 }
 
 void main() {
@@ -60,17 +78,13 @@ void main() {
     if (!drawnPixel(pixel, slot)) return;
     const uint tile = uint((pixel.y / TILE_EDGE) * params.tilesAcross + pixel.x / TILE_EDGE);
     const uint last = tileOffsets[tile + 1u];
-    const float opaque = opaqueDepth();
     PixelSum sum = emptyPixel();
     for (int part = 0; part < params.samples * params.samples; ++part) {
         vec3 origin, direction;
         viewRay(params.view, pixel * params.samples + ivec2(part % params.samples, part / params.samples),
                 params.samples, origin, direction);
         const SunView sun = sunView(params.light, direction);
-        RayLight ray = emptyRay();
-        for (uint i = tileOffsets[tile]; i < last && ray.depth < opaque; ++i)
-            addBillboard(ray, sun, billboardAt(i), origin, direction);
-        addRay(sum, ray, direction);
+        addRay(sum, throughList(tileOffsets[tile], last, sun, origin, direction), direction);
     }
     pixels[slot] = finishedPixel(sum, params.samples * params.samples);
 }

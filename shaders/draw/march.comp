@@ -21,7 +21,7 @@ layout(binding = 4) uniform sampler3D lightField;
 layout(binding = 5) uniform sampler3D sunDepth;
 layout(binding = 6, scalar) writeonly buffer Pixels { Pixel pixels[]; };
 layout(binding = 7) uniform sampler3D density;
-layout(binding = 8) uniform sampler3D majorants;  // normalised; negative: distances in empty space
+layout(binding = 8, r32f) readonly uniform image3D majorants;  // normalised; negative: distances in empty space
 layout(binding = 9, scalar) readonly buffer Blocks { uvec3 blockGroups; uint blockCount; uint blocks[]; };
 layout(push_constant, scalar) uniform Push { DrawPush push; };
 
@@ -67,25 +67,37 @@ float leaveCells(ViewLine line, inout ivec3 cell, int reach) {
     return leave;
 }
 
-void marchCell(inout RayLight ray, SunView sun, ViewLine line, vec2 span, float majorant, float offset) {
-    const float length_ = span.y - span.x;
-    const float growth = min(exp(GROWTH * leastDecay() * ray.depth), MOST_GROWTH);
-    const float steps =
-        ceil(length_ * max(1.0 / params.field.voxelLength, majorant / STEP_THICKNESS) / growth);
-    const float count = clamp(steps, 1.0, 512.0);
-    const float dt = length_ / count;
-    for (float i = 0.0; i < count; i += 1.0) {
-        const float near = span.x + i * dt;
-        const float found = densityAt(density, line.start + line.velocity * (near + offset * dt), 1.0 / params.field.size);
-        if (found > 0.0) {
-            const float thickness = found * params.field.extinction * dt;
-            const vec3 seen = line.start + line.velocity * (near + seenAt(thickness, offset) * dt);
-            addStretch(ray, sun, near, near + dt, thickness, seen, SUN ? sunDepthAt(seen) : 0.0);
-        }
-    }
+/// Where a march is: the cell that the line leaves at `leave`, and the steps that are left in it.
+struct Walk {
+    ivec3 cell;
+    float leave;        // of the last cell [m]; where the next one begins
+    float begin, step;  // of the steps in it [m]
+    float done, count;
+    int crossed;        // cells
+};
+
+bool isOver(Walk walk, float end, ivec3 last) {
+    return walk.leave >= end || walk.crossed >= 8192 || any(lessThan(walk.cell, ivec3(0))) ||
+           any(greaterThan(walk.cell, last));
 }
 
-/// The light of one ray; `offset` is where in its steps it looks.
+/// Goes through the next cell, or through empty ones: it has no steps then. `depth` is what hides it.
+void enterCell(inout Walk walk, ViewLine line, float end, float depth) {
+    const float majorant = imageLoad(majorants, walk.cell).r;
+    walk.begin = walk.leave;
+    walk.leave = max(leaveCells(line, walk.cell, int(max(-majorant - 1.0, 0.0))), walk.begin);
+    const float span = min(walk.leave, end) - walk.begin;
+    const float growth = min(exp(GROWTH * leastDecay() * depth), MOST_GROWTH);
+    const float thickest = majorant * params.field.extinction / STEP_THICKNESS;
+    const float steps = ceil(span * max(1.0 / params.field.voxelLength, thickest) / growth);
+    walk.count = majorant > 0.0 && span > 0.0 ? clamp(steps, 1.0, 512.0) : 0.0;
+    walk.step = span / max(walk.count, 1.0);
+    walk.done = 0.0;
+    ++walk.crossed;
+}
+
+/// The light of one ray; `offset` is where in its steps it looks. Cells, then steps, are gone through until one has
+/// density, and only that is lit: lanes that have nothing to light would wait for those that have.
 RayLight march(vec3 origin, vec3 direction, float offset) {
     const SunView sun = sunView(params.light, direction);
     const ViewLine line = viewLine(params.field.eyeVoxel + params.field.worldToVoxel * origin,
@@ -94,15 +106,25 @@ RayLight march(vec3 origin, vec3 direction, float offset) {
     const vec2 inside = clipToVolume(line);
     const float opaque = opaqueDepth();
     const ivec3 last = params.field.cells - 1;
-    float t = inside.x;
-    ivec3 cell = clamp(ivec3(floor((line.start + line.velocity * t) / params.field.cellSize)), ivec3(0), last);
-    for (int crossed = 0; crossed < 8192 && t < inside.y && ray.depth < opaque; ++crossed) {
-        const float majorant = texelFetch(majorants, cell, 0).r;
-        const float leave = max(leaveCells(line, cell, int(max(-majorant - 1.0, 0.0))), t);
-        if (majorant > 0.0 && leave > t)
-            marchCell(ray, sun, line, vec2(t, min(leave, inside.y)), majorant * params.field.extinction, offset);
-        if (any(lessThan(cell, ivec3(0))) || any(greaterThan(cell, last))) break;
-        t = leave;
+    const ivec3 first = ivec3(floor((line.start + line.velocity * inside.x) / params.field.cellSize));
+    Walk walk = Walk(clamp(first, ivec3(0), last), inside.x, inside.x, 0.0, 0.0, 0.0, 0);
+    bool more = inside.x < inside.y;
+    while (more) {
+        float found = 0.0;
+        while (more && found <= 0.0) {
+            while (walk.done >= walk.count && !isOver(walk, inside.y, last)) enterCell(walk, line, inside.y, ray.depth);
+            more = walk.done < walk.count;
+            const float at = walk.begin + (walk.done + offset) * walk.step;
+            found = more ? densityAt(density, line.start + line.velocity * at, 1.0 / params.field.size) : 0.0;
+            walk.done += 1.0;
+        }
+        if (found > 0.0) {
+            const float near = walk.begin + (walk.done - 1.0) * walk.step;
+            const float thickness = found * params.field.extinction * walk.step;
+            const vec3 seen = line.start + line.velocity * (near + seenAt(thickness, offset) * walk.step);
+            addStretch(ray, sun, near, near + walk.step, thickness, seen, SUN ? sunDepthAt(seen) : 0.0);
+        }
+        more = more && ray.depth < opaque;
     }
     return ray;
 }

@@ -5,10 +5,17 @@
 
 #include "shared/draw.h"
 
+/// Place in the dispatch's rectangle. Eight invocations that run in step on lavapipe are 4×2 pixels, whose rays are alike.
+ivec2 placeDrawn() {
+    const ivec2 eight = ivec2(gl_LocalInvocationIndex >> 3u & 3u, gl_LocalInvocationIndex >> 5u);
+    const ivec2 lane = ivec2(gl_LocalInvocationIndex & 3u, gl_LocalInvocationIndex >> 2u & 1u);
+    return ivec2(gl_WorkGroupID.xy) * ivec2(16, 4) + eight * ivec2(4, 2) + lane;
+}
+
 /// The pixel, and where it is stored; false where this invocation has none.
 bool drawnPixel(out ivec2 pixel, out int slot) {
     const LatticeParams lattice = params.lattice;
-    ivec2 place = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 place = placeDrawn();
     if (push.what == DRAW_BLOCKS) {
         const uint each = uint(lattice.spacing * lattice.spacing);
         const uint index = gl_WorkGroupID.x * uint(DRAW_GROUP) + gl_LocalInvocationIndex;

@@ -93,9 +93,9 @@ void Billboards::prepare(const Camera& camera, double extinction, std::span<cons
 
 void Billboards::record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawPush& push) const {
     std::vector<gpu::Binding> bindings = inputs.bindings();
-    bindings.emplace_back("billboards", *billboards_, gpu::Sampler::nearest);
+    bindings.emplace_back("billboards", *billboards_);
     bindings.emplace_back("TileOffsets", offsets_);
-    bindings.emplace_back("tileLists", *lists_, gpu::Sampler::nearest);
+    bindings.emplace_back("tileLists", *lists_);
     commands.pass("billboards");
     dispatchDrawing(commands, program_, bindings, inputs.blocks, push);
 }

@@ -16,7 +16,7 @@ March::March(gpu::Context& context, const cloud::Cloud& cloud, const DrawFeature
 void March::record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawPush& push) const {
     std::vector<gpu::Binding> bindings = inputs.bindings();
     bindings.emplace_back("density", cloud_.density, gpu::Sampler::linear);
-    bindings.emplace_back("majorants", cloud_.marchedCells(), gpu::Sampler::nearest);
+    bindings.emplace_back("majorants", cloud_.marchedCells());
     commands.pass("march");
     dispatchDrawing(commands, program_, bindings, inputs.blocks, push);
 }
