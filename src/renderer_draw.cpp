@@ -110,31 +110,38 @@ void Renderer::State::recordPixels(const draw::FrameInputs& inputs, const shared
 
 /// Lattice points that are not drawn yet, what can be interpolated between them, and the rest.
 void Renderer::State::recordBlocks(const draw::FrameInputs& inputs, const shared::LatticeParams& lattice,
-                                   const draw::Band& band, const shared::DrawPush& all) {
+                                   const draw::Band& band, const Tile& pixels) {
+    const auto into = [&](const gpu::Buffer& target, const gpu::Buffer& list) {
+        return draw::FrameInputs{inputs.params, inputs.phase, inputs.lightField, inputs.sunDepth, target, list};
+    };
     const draw::Band needed = draw::latticeRows(lattice, tile, band);
     const int first = std::max(needed.first, latticeRowsDrawn), end = needed.first + needed.rows;
     if (end > first) {
-        const draw::FrameInputs points{inputs.params,           inputs.phase, inputs.lightField, inputs.sunDepth,
-                                       interpolation->points(), inputs.blocks};
-        recordPixels(points,
-                     {shared::DRAW_LATTICE, lattice.first + glm::ivec2(0, first), {lattice.size.x, end - first}});
+        recordPixels(into(interpolation->points(), inputs.squares),
+                     {shared::DRAW_LATTICE, lattice.first + glm::ivec2(0, first), {lattice.size.x, end - first}, 0});
         commands.barrier("lattice points");
         latticeRowsDrawn = end;
     }
-    interpolation->record(commands, inputs, all);
+    interpolation->record(commands, inputs, pixels);
     commands.barrier("blocks");
-    recordPixels(inputs, {shared::DRAW_BLOCKS, all.first, all.count});
+    if (draw::hasHalves(spacing)) {
+        recordPixels(into(interpolation->halves(), interpolation->blocks()), interpolation->halfPoints(pixels));
+        commands.barrier("halves");
+        interpolation->recordHalves(commands, inputs, pixels);
+        commands.barrier("cells");
+    }
+    recordPixels(into(inputs.pixels, interpolation->lastList()), interpolation->squares(pixels));
 }
 
 void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inputs,
                                const shared::LatticeParams& lattice, const draw::Band& band) {
-    const shared::DrawPush all{shared::DRAW_PIXELS, {tile.x, tile.y + band.first}, {tile.width, band.rows}};
-    if (lattice.spacing > 1) interpolation->clearBlocks();
+    const Tile pixels{tile.x, tile.y + band.first, tile.width, band.rows};
+    if (lattice.spacing > 1) interpolation->clearLists();
     commands.begin();
     if (lattice.spacing > 1)
-        recordBlocks(inputs, lattice, band, all);
+        recordBlocks(inputs, lattice, band, pixels);
     else
-        recordPixels(inputs, all);
+        recordPixels(inputs, {shared::DRAW_PIXELS, {pixels.x, pixels.y}, {pixels.width, pixels.height}, 0});
     commands.submit();
     commands.wait();
     addTimes(commands.times());
@@ -164,20 +171,17 @@ void Renderer::State::drawBands(LayeredImage& image, const std::vector<draw::Ban
                              gpu::Memory::host);
     // Stand for what the scene does not have: the shaders never read them, but every binding must be there.
     const gpu::Image none(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT);
-    const gpu::Buffer noBlocks = draw::noBlocks(context);
+    const gpu::Buffer noSquares = draw::noSquares(context);
     params.mapped<shared::DrawParams>()[0] = drawParams();
     const shared::LatticeParams lattice = params.mapped<shared::DrawParams>()[0].lattice;
     if (spacing > 1) {
-        if (!interpolation) interpolation.emplace(context);
-        interpolation->prepare(lattice);
+        if (!interpolation || interpolation->spacing() != spacing) interpolation.emplace(context, spacing);
+        interpolation->prepare(lattice, draw::bandRows(tile));
         latticeRowsDrawn = 0;
     }
-    const draw::FrameInputs inputs{params,
-                                   *phase,
-                                   lightField ? lightField->image() : none,
-                                   sunDepth ? sunDepth->image() : none,
-                                   pixels,
-                                   spacing > 1 ? interpolation->blocks() : noBlocks};
+    const draw::FrameInputs inputs{
+        params, *phase,   lightField ? lightField->image() : none, sunDepth ? sunDepth->image() : none,
+        pixels, noSquares};
     told("drawing", 0, bands.size());
     for (std::size_t done = 0; done < bands.size(); ++done) {
         check();

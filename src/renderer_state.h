@@ -95,7 +95,7 @@ struct Renderer::State {
                   const draw::Band& band);
     void recordPixels(const draw::FrameInputs& inputs, const shared::DrawPush& push);
     void recordBlocks(const draw::FrameInputs& inputs, const shared::LatticeParams& lattice, const draw::Band& band,
-                      const shared::DrawPush& all);
+                      const Tile& pixels);
     shared::DrawParams drawParams() const;
     glm::dvec3 middle() const;
     int latticeSpacing() const;

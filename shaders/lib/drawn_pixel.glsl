@@ -3,6 +3,7 @@
 #ifndef LUMULUS_LIB_DRAWN_PIXEL
 #define LUMULUS_LIB_DRAWN_PIXEL
 
+#include "lib/square.glsl"
 #include "shared/draw.h"
 
 /// Place in the dispatch's rectangle. Eight invocations that run in step on lavapipe are 4×2 pixels, whose rays are alike.
@@ -16,14 +17,20 @@ ivec2 placeDrawn() {
 bool drawnPixel(out ivec2 pixel, out int slot) {
     const LatticeParams lattice = params.lattice;
     ivec2 place = placeDrawn();
-    if (push.what == DRAW_BLOCKS) {
-        const uint each = uint(lattice.spacing * lattice.spacing);
+    if (push.what == DRAW_SQUARES) {
+        const uint each = uint(push.edge * push.edge);
         const uint index = gl_WorkGroupID.x * uint(DRAW_GROUP) + gl_LocalInvocationIndex;
         if (index / each >= blockCount) return false;
-        const int block = int(blocks[index / each]), part = int(index % each);
-        pixel = (lattice.first + ivec2(block % lattice.size.x, block / lattice.size.x)) * lattice.spacing +
-                ivec2(part % lattice.spacing, part / lattice.spacing);
+        const int part = int(index % each);
+        pixel = squareAt(blocks[index / each]) * push.edge + ivec2(part % push.edge, part / push.edge);
         place = pixel - push.first;
+    } else if (push.what == DRAW_HALVES) {
+        const uint index = gl_WorkGroupID.x * uint(HALVES_GROUP) + gl_LocalInvocationIndex % uint(HALVES_GROUP);
+        const int part = int(gl_LocalInvocationIndex / uint(HALVES_GROUP));
+        if (part == 0 || index >= blockCount) return false;
+        const ivec2 point = 2 * squareAt(blocks[index]) + ivec2(part & 1, part >> 1);
+        pixel = 2 * point;
+        place = point - push.first;
     } else {
         pixel = (push.first + place) * (push.what == DRAW_LATTICE ? lattice.spacing : 1);
     }

@@ -69,7 +69,7 @@ struct PixelSum {
 };
 
 PixelSum emptyPixel() {
-    return PixelSum(Pixel(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, FAR_DEPTH), 0.0);
+    return PixelSum(Pixel(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, FAR_DEPTH), 0.0);
 }
 
 void addRay(inout PixelSum sum, RayLight ray, vec3 direction) {
@@ -78,8 +78,8 @@ void addRay(inout PixelSum sum, RayLight ray, vec3 direction) {
     sum.pixel.cloud += ray.cloud;
     sum.pixel.radiance += ray.cloud + params.light.skyRadiance * turned;
     // what is drawn in the sun's disc is not spread over its neighbours
-    if (push.what != DRAW_LATTICE) sum.pixel.radiance += discSeen(params.light, direction) * transmittance;
-    sum.pixel.transmittance += vec3(transmittance);
+    if (push.what != DRAW_LATTICE && push.what != DRAW_HALVES) sum.pixel.radiance += discSeen(params.light, direction) * transmittance;
+    sum.pixel.transmittance += transmittance;
     sum.pixel.alpha += 1.0 - (turned.x + turned.y + turned.z) / 3.0;
     sum.pixel.depth += ray.distance;
     sum.pixel.front = min(sum.pixel.front, ray.front);

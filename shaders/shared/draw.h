@@ -69,18 +69,30 @@ struct DrawParams {
     int samples;  // rays a pixel, along each side: a grid of them where pixels are larger than voxels
 };
 
-/// Which pixels a dispatch draws: a rectangle of them; a rectangle of lattice points; or those pixels of a rectangle that
-/// lie in listed blocks, a block being the pixels from a lattice point to the next ones.
+/// Which pixels a dispatch draws: a rectangle of them; a rectangle of lattice points; those pixels of a rectangle that
+/// lie in listed squares; or, of a rectangle of every second pixel of every second row, the three in listed blocks (four by
+/// four pixels, from a lattice point to the next ones) that are no lattice points.
 const int DRAW_PIXELS = 0;
 const int DRAW_LATTICE = 1;
-const int DRAW_BLOCKS = 2;
-/// Invocations of a workgroup that draws, 16×4.
+const int DRAW_SQUARES = 2;
+const int DRAW_HALVES = 3;
+/// Invocations of a workgroup that draws, 16×4, and blocks that one draws halves of: the invocations of lattice points idle.
 const int DRAW_GROUP = 64;
+const int HALVES_GROUP = 16;
 
 struct DrawPush {
     int what;
     ivec2 first;
     ivec2 count;
+    int edge;  // of listed squares, pixels
+};
+
+/// Pixels that are interpolated, and blocks from lattice point to lattice point that are looked at for them.
+struct InterpolatePush {
+    ivec2 first;  // pixel
+    ivec2 count;
+    ivec2 firstBlock;
+    ivec2 blocks;
 };
 
 /// Texels in a row of a list that is an image.
@@ -99,7 +111,7 @@ struct Billboard {
 struct Pixel {
     vec3 radiance;  // with the sky
     vec3 cloud;     // without
-    vec3 transmittance;
+    float transmittance;
     float alpha;
     float depth;
     float front;
@@ -154,8 +166,9 @@ static_assert(sizeof(LightParams) == 88 && offsetof(LightParams, tauMaximum) == 
 static_assert(sizeof(FieldParams) == 152 && offsetof(FieldParams, sunOffset) == 140);
 static_assert(sizeof(LatticeParams) == 28 && offsetof(LatticeParams, depthTolerance) == 24);
 static_assert(sizeof(DrawParams) == 332 && offsetof(DrawParams, samples) == 328);
-static_assert(sizeof(DrawPush) == 20 && offsetof(DrawPush, count) == 12);
-static_assert(sizeof(Pixel) == 48 && offsetof(Pixel, front) == 44);
+static_assert(sizeof(DrawPush) == 24 && offsetof(DrawPush, edge) == 20);
+static_assert(sizeof(InterpolatePush) == 32 && offsetof(InterpolatePush, blocks) == 24);
+static_assert(sizeof(Pixel) == 40 && offsetof(Pixel, front) == 36);
 static_assert(sizeof(SunDepthPush) == 80 && offsetof(SunDepthPush, firstRow) == 76);
 static_assert(sizeof(CollectorSunPush) == 64 && offsetof(CollectorSunPush, collectors) == 60);
 static_assert(sizeof(LightFieldPush) == 88 && offsetof(LightFieldPush, voxelToWorld) == 52);

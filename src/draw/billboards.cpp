@@ -97,7 +97,7 @@ void Billboards::record(gpu::Commands& commands, const FrameInputs& inputs, cons
     bindings.emplace_back("TileOffsets", offsets_);
     bindings.emplace_back("tileLists", *lists_);
     commands.pass("billboards");
-    dispatchDrawing(commands, program_, bindings, inputs.blocks, push);
+    dispatchDrawing(commands, program_, bindings, inputs.squares, push);
 }
 
 }  // namespace lumulus::draw

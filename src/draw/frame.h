@@ -37,14 +37,15 @@ gpu::Buffer filledBuffer(gpu::Context& context, const char* name, const Values& 
     return buffer;
 }
 
-/// What every drawing pass reads and writes. `params` holds one shared::DrawParams, `blocks` the list of DRAW_BLOCKS.
+/// What every drawing pass reads and writes. `params` holds one shared::DrawParams, `squares` the list of DRAW_SQUARES
+/// or DRAW_HALVES.
 struct FrameInputs {
     const gpu::Buffer& params;
     const PhaseTables& phase;
     const gpu::Image& lightField;
     const gpu::Image& sunDepth;
     const gpu::Buffer& pixels;
-    const gpu::Buffer& blocks;
+    const gpu::Buffer& squares;
 
     std::vector<gpu::Binding> bindings() const {
         return {{"Params", params},
@@ -54,18 +55,18 @@ struct FrameInputs {
                 {"lightField", lightField, gpu::Sampler::linearClamp},
                 {"sunDepth", sunDepth, gpu::Sampler::linearClamp},
                 {"Pixels", pixels},
-                {"Blocks", blocks}};
+                {"Blocks", squares}};
     }
 };
 
 using DrawProgram = gpu::Program<shared::DrawPush>;
 
-/// Records the drawing of pixels, lattice points or listed blocks.
+/// Records the drawing of pixels, lattice points or what is listed.
 inline void dispatchDrawing(gpu::Commands& commands, const DrawProgram& program,
-                            const std::vector<gpu::Binding>& bindings, const gpu::Buffer& blocks,
+                            const std::vector<gpu::Binding>& bindings, const gpu::Buffer& squares,
                             const shared::DrawPush& push) {
-    if (push.what == shared::DRAW_BLOCKS)
-        commands.dispatchIndirect(program, bindings, push, blocks);
+    if (push.what == shared::DRAW_SQUARES || push.what == shared::DRAW_HALVES)
+        commands.dispatchIndirect(program, bindings, push, squares);
     else
         commands.dispatch(program, bindings, push,
                           {(static_cast<std::uint32_t>(push.count.x) + 15) / 16,

@@ -2,23 +2,38 @@
 
 #include <algorithm>
 
+#include "gpu/groups.h"
+
 namespace lumulus::draw {
 
 namespace {
 
 namespace spirv {
 #include "spirv/draw/interpolate.comp.h"
+#include "spirv/draw/interpolate_halves.comp.h"
 }  // namespace spirv
 
-/// Words before the list: workgroups of the drawing in three dimensions, blocks.
+/// Words before the list: workgroups of the drawing in three dimensions, squares.
 constexpr std::uint64_t headerWords = 4;
 
 std::uint64_t countOf(const shared::LatticeParams& lattice) {
     return static_cast<std::uint64_t>(lattice.size.x) * static_cast<std::uint64_t>(lattice.size.y);
 }
 
-gpu::Buffer blockList(gpu::Context& context, std::uint64_t blocks) {
-    return {context, "blocks", (headerWords + blocks) * sizeof(std::uint32_t), gpu::Memory::host};
+gpu::Buffer squareList(gpu::Context& context, const char* name, std::uint64_t squares) {
+    return {context, name, (headerWords + squares) * sizeof(std::uint32_t), gpu::Memory::host};
+}
+
+void clear(const gpu::Buffer& list) {
+    const auto words = list.mapped<std::uint32_t>();
+    words[0] = 0;
+    words[1] = words[2] = 1;
+    words[3] = 0;
+}
+
+/// Points that a band or a tile needs beyond the block of its last pixel.
+int marginOf(int spacing) {
+    return hasHalves(spacing) ? 3 : 2;
 }
 
 }  // namespace
@@ -26,6 +41,10 @@ gpu::Buffer blockList(gpu::Context& context, std::uint64_t blocks) {
 int latticeSpacing(double voxelPixels) {
     if (voxelPixels >= 1.5) return widestSpacing;
     return voxelPixels >= 1.0 ? 2 : 1;
+}
+
+bool hasHalves(int spacing) {
+    return spacing == widestSpacing;
 }
 
 double drawnShare(int spacing) {
@@ -39,7 +58,7 @@ shared::LatticeParams latticeOf(const Camera& camera, const Tile& tile, int spac
     const glm::ivec2 end(tile.x + tile.width - 1, tile.y + tile.height - 1);
     shared::LatticeParams lattice{};
     lattice.first = lower;
-    lattice.size = glm::min(end / spacing + 2, last) - lower + 1;
+    lattice.size = glm::min(end / spacing + marginOf(spacing), last) - lower + 1;
     lattice.spacing = spacing;
     lattice.tolerance = static_cast<float>(tolerance);
     lattice.depthTolerance = static_cast<float>(8.0 * voxelLength);
@@ -49,42 +68,91 @@ shared::LatticeParams latticeOf(const Camera& camera, const Tile& tile, int spac
 Band latticeRows(const shared::LatticeParams& lattice, const Tile& tile, const Band& band) {
     const int top = tile.y + band.first, bottom = top + band.rows - 1;
     const int first = std::max(top / lattice.spacing - 1 - lattice.first.y, 0);
-    const int last = std::min(bottom / lattice.spacing + 2 - lattice.first.y, lattice.size.y - 1);
+    const int last =
+        std::min(bottom / lattice.spacing + marginOf(lattice.spacing) - lattice.first.y, lattice.size.y - 1);
     return {first, last - first + 1};
 }
 
-Interpolation::Interpolation(gpu::Context& context)
+Interpolation::Interpolation(gpu::Context& context, int spacing)
     : context_(context),
-      program_(context, "interpolate", spirv::interpolate_comp),
+      spacing_(spacing),
+      program_(context, "interpolate", spirv::interpolate_comp, {gpu::SpecConstant::of(0, hasHalves(spacing))}),
       points_(context, "lattice", 0, gpu::Memory::device),
-      blocks_(noBlocks(context)) {}
+      halves_(context, "halves", 0, gpu::Memory::device),
+      blocks_(squareList(context, "blocks", 0)),
+      cells_(squareList(context, "cells", 0)) {
+    if (hasHalves(spacing)) halvesProgram_.emplace(context, "interpolate_halves", spirv::interpolate_halves_comp);
+}
 
-void Interpolation::prepare(const shared::LatticeParams& lattice) {
-    const std::uint64_t count = countOf(lattice);
-    if (count != countOf(lattice_)) {
-        points_ = gpu::Buffer(context_, "lattice", count * sizeof(shared::Pixel), gpu::Memory::device);
-        blocks_ = blockList(context_, count);
+void Interpolation::prepare(const shared::LatticeParams& lattice, int bandRows) {
+    const std::uint64_t inBand =
+        static_cast<std::uint64_t>(lattice.size.x) * static_cast<std::uint64_t>(bandRows / lattice.spacing + 2);
+    if (lattice.size != lattice_.size || inBand != blocksInBand_) {
+        blocksInBand_ = inBand;
+        points_ = gpu::Buffer(context_, "lattice", countOf(lattice) * sizeof(shared::Pixel), gpu::Memory::device);
+        blocks_ = squareList(context_, "blocks", inBand);
+        if (hasHalves(spacing_)) {
+            halves_ = gpu::Buffer(context_, "halves", 4 * inBand * sizeof(shared::Pixel), gpu::Memory::device);
+            cells_ = squareList(context_, "cells", 4 * inBand);
+        }
     }
     lattice_ = lattice;
 }
 
-void Interpolation::clearBlocks() {
-    const auto words = blocks_.mapped<std::uint32_t>();
-    words[0] = 0;
-    words[1] = words[2] = 1;
-    words[3] = 0;
+void Interpolation::clearLists() {
+    clear(blocks_);
+    clear(cells_);
 }
 
-void Interpolation::record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawPush& push) const {
-    const glm::ivec2 blocks = (push.first + push.count - 1) / lattice_.spacing - push.first / lattice_.spacing + 1;
+shared::InterpolatePush Interpolation::push(const Tile& pixels) const {
+    const glm::ivec2 first(pixels.x, pixels.y), count(pixels.width, pixels.height);
+    const glm::ivec2 firstBlock = first / lattice_.spacing;
+    const int beside = hasHalves(spacing_) ? 1 : 0;
+    const glm::ivec2 last =
+        glm::min((first + count - 1) / lattice_.spacing + beside, lattice_.first + lattice_.size - 1);
+    return {first, count, firstBlock, last - firstBlock + 1};
+}
+
+shared::DrawPush Interpolation::halfPoints(const Tile& pixels) const {
+    const shared::InterpolatePush all = push(pixels);
+    return {shared::DRAW_HALVES, 2 * all.firstBlock, 2 * all.blocks, 0};
+}
+
+shared::DrawPush Interpolation::squares(const Tile& pixels) const {
+    return {shared::DRAW_SQUARES,
+            {pixels.x, pixels.y},
+            {pixels.width, pixels.height},
+            hasHalves(spacing_) ? lattice_.spacing / 2 : lattice_.spacing};
+}
+
+void Interpolation::record(gpu::Commands& commands, const FrameInputs& inputs, const Tile& pixels) const {
+    const shared::InterpolatePush values = push(pixels);
     commands.pass("interpolate");
     commands.dispatch(
-        program_, {{"Params", inputs.params}, {"Lattice", points_}, {"Pixels", inputs.pixels}, {"Blocks", blocks_}},
-        push, {(static_cast<std::uint32_t>(blocks.x) + 7) / 8, (static_cast<std::uint32_t>(blocks.y) + 7) / 8, 1});
+        program_,
+        {{"Params", inputs.params},
+         {"Lattice", points_},
+         {"Pixels", inputs.pixels},
+         {"Blocks", blocks_},
+         {"Halves", halves_}},
+        values,
+        gpu::linearGroups(static_cast<std::uint64_t>(values.blocks.x) * static_cast<std::uint64_t>(values.blocks.y),
+                          64));
 }
 
-gpu::Buffer noBlocks(gpu::Context& context) {
-    return blockList(context, 0);
+void Interpolation::recordHalves(gpu::Commands& commands, const FrameInputs& inputs, const Tile& pixels) const {
+    commands.pass("interpolate halves");
+    commands.dispatchIndirect(*halvesProgram_,
+                              {{"Params", inputs.params},
+                               {"Halves", halves_},
+                               {"Pixels", inputs.pixels},
+                               {"Blocks", blocks_},
+                               {"Cells", cells_}},
+                              push(pixels), blocks_);
+}
+
+gpu::Buffer noSquares(gpu::Context& context) {
+    return squareList(context, "squares", 0);
 }
 
 }  // namespace lumulus::draw

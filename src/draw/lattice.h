@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "draw/bands.h"
 #include "draw/camera.h"
 #include "draw/frame.h"
@@ -15,42 +17,62 @@ constexpr int widestSpacing = 4;
 /// structure, two voxels, each of `voxelPixels` pixels. 1: every pixel is drawn.
 int latticeSpacing(double voxelPixels);
 
+/// Whether what bends from point to point is looked at at half their spacing before it is drawn pixel by pixel.
+bool hasHalves(int spacing);
+
 /// Part of the time of drawing every pixel that the points and what is not smooth between them take, on the safe side:
 /// .18 to .3 were measured for 4.
 double drawnShare(int spacing);
 
-/// Points that a tile needs: one more around its blocks, within the picture. `tolerance`: what may bend from point to
-/// point, against the brightest around; distances may by eight voxels (edge [m]).
+/// Points that a tile needs: one more around its blocks, within the picture; two more below and on the right with
+/// halves. `tolerance`: what may bend from point to point, against the brightest around; distances may by eight voxels
+/// (edge [m]).
 shared::LatticeParams latticeOf(const Camera& camera, const Tile& tile, int spacing, double tolerance,
                                 double voxelLength);
 
 /// Rows of lattice points (from the lattice's first) that a band of a tile looks at.
 Band latticeRows(const shared::LatticeParams& lattice, const Tile& tile, const Band& band);
 
-/// Draws the pixels between the points of a lattice, or lists the blocks of them that are to be drawn as they are.
+/// Draws the pixels between the points of a lattice, or lists squares of them that are to be drawn as they are. The
+/// order is record(), with halves halfPoints() by blocks() into halves() and recordHalves(), then
+/// squares() by lastList().
 class Interpolation {
   public:
-    explicit Interpolation(gpu::Context& context);
+    Interpolation(gpu::Context& context, int spacing);
 
-    /// Makes room for a lattice; before commands are recorded.
-    void prepare(const shared::LatticeParams& lattice);
-    /// An empty list of blocks; before commands are recorded.
-    void clearBlocks();
-    /// Records the pass over a rectangle of pixels (push.first, push.count). `inputs.blocks` is blocks().
-    void record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawPush& push) const;
+    /// Makes room for bands of so many rows of pixels; before commands are recorded.
+    void prepare(const shared::LatticeParams& lattice, int bandRows);
+    /// Empty lists; before commands are recorded.
+    void clearLists();
+    /// Records the pass over a rectangle of pixels.
+    void record(gpu::Commands& commands, const FrameInputs& inputs, const Tile& pixels) const;
+    /// Records the pass over what the first one listed.
+    void recordHalves(gpu::Commands& commands, const FrameInputs& inputs, const Tile& pixels) const;
 
-    const gpu::Buffer& points() const { return points_; }
+    /// What draws the half-way points of blocks(), and the squares that are listed last.
+    shared::DrawPush halfPoints(const Tile& pixels) const;
+    shared::DrawPush squares(const Tile& pixels) const;
+
+    int spacing() const { return spacing_; }
+    const gpu::Buffer& points() const { return points_; }  ///< a Pixel each
+    const gpu::Buffer& halves() const { return halves_; }  ///< of a band, a Pixel each
     const gpu::Buffer& blocks() const { return blocks_; }
+    const gpu::Buffer& lastList() const { return hasHalves(spacing_) ? cells_ : blocks_; }
 
   private:
+    shared::InterpolatePush push(const Tile& pixels) const;
+
     gpu::Context& context_;
-    gpu::Program<shared::DrawPush> program_;
+    int spacing_;
+    gpu::Program<shared::InterpolatePush> program_;
+    std::optional<gpu::Program<shared::InterpolatePush>> halvesProgram_;
     shared::LatticeParams lattice_{};
-    gpu::Buffer points_;  ///< a Pixel each
-    gpu::Buffer blocks_;  ///< groups (3), count, then indices
+    std::uint64_t blocksInBand_ = 0;
+    gpu::Buffer points_, halves_;
+    gpu::Buffer blocks_, cells_;  ///< groups (3), count, then squares
 };
 
-/// A list of blocks that is never read, for drawing passes without a lattice.
-gpu::Buffer noBlocks(gpu::Context& context);
+/// A list of squares that is never read, for drawing passes without a lattice.
+gpu::Buffer noSquares(gpu::Context& context);
 
 }  // namespace lumulus::draw

@@ -18,7 +18,7 @@ void March::record(gpu::Commands& commands, const FrameInputs& inputs, const sha
     bindings.emplace_back("density", cloud_.density, gpu::Sampler::linear);
     bindings.emplace_back("majorants", cloud_.marchedCells());
     commands.pass("march");
-    dispatchDrawing(commands, program_, bindings, inputs.blocks, push);
+    dispatchDrawing(commands, program_, bindings, inputs.squares, push);
 }
 
 }  // namespace lumulus::draw

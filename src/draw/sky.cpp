@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -45,28 +46,21 @@ LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& 
 
 void copyPixels(std::span<const shared::Pixel> pixels, LayeredImage& image, int firstRow, int rows) {
     const auto width = static_cast<std::size_t>(image.width);
-    // a pixel's floats in the order of its members
-    const std::array<const char*, 12> names{"R",
-                                            "G",
-                                            "B",
-                                            "cloud.R",
-                                            "cloud.G",
-                                            "cloud.B",
-                                            "transmittance.R",
-                                            "transmittance.G",
-                                            "transmittance.B",
-                                            "A",
-                                            "depth.Z",
-                                            "depth.front"};
+    // a pixel's floats in the order of its members; what is seen through is the same for all colours
+    const std::array<const char*, 10> names{
+        "R", "G", "B", "cloud.R", "cloud.G", "cloud.B", "transmittance.R", "A", "depth.Z", "depth.front"};
+    constexpr std::size_t transmittance = 6;
     static_assert(sizeof(shared::Pixel) == std::tuple_size_v<decltype(names)> * sizeof(float));
     std::array<float*, names.size()> layers{};
     for (std::size_t i = 0; i < names.size(); ++i) layers[i] = image.layer(names[i]).data();
+    std::array<float*, 2> transmittances{image.layer("transmittance.G").data(), image.layer("transmittance.B").data()};
     tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(rows), [&](std::size_t row) {
         const std::size_t to = (static_cast<std::size_t>(firstRow) + row) * width;
         for (std::size_t x = 0; x < width; ++x) {
             const auto values = std::bit_cast<std::array<float, names.size()>>(pixels[row * width + x]);
             for (std::size_t i = 0; i < values.size(); ++i) layers[i][to + x] = values[i];
         }
+        for (float* copy : transmittances) std::copy_n(layers[transmittance] + to, width, copy + to);
     });
 }
 

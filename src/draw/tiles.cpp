@@ -13,7 +13,7 @@ namespace lumulus::draw {
 
 namespace {
 
-/// Tiles along the edge of a group, which is filtered first.
+/// Tiles along the edge of a group, which is filtered first: a power of two.
 constexpr int groupEdge = 8;
 
 /// A billboard as the beams look at it, a little larger.
@@ -90,6 +90,34 @@ std::vector<std::uint32_t> keep(const Beam& beam, const std::vector<Target>& tar
     return kept;
 }
 
+/// Fills the lists of a square of tiles, quarter by quarter: most of what one quarter meets none of the others does.
+class Divider {
+  public:
+    Divider(const Camera& camera, const TileLists& tiles, const std::vector<Target>& targets,
+            std::vector<std::vector<std::uint32_t>>& lists)
+        : camera_(camera), tiles_(tiles), targets_(targets), lists_(lists) {}
+
+    void divide(const glm::ivec2& first, int edge, const std::vector<std::uint32_t>& candidates) const {
+        if (first.x >= tiles_.across || first.y >= tiles_.down) return;
+        const glm::ivec2 lower = first * shared::TILE_EDGE;
+        std::vector<std::uint32_t> kept =
+            keep(Beam(camera_, lower, lower + edge * shared::TILE_EDGE), targets_, candidates);
+        if (edge == 1) {
+            lists_[static_cast<std::size_t>(first.y * tiles_.across + first.x)] = std::move(kept);
+            return;
+        }
+        if (kept.empty()) return;
+        const int half = edge / 2;
+        for (int i = 0; i < 4; ++i) divide(first + half * glm::ivec2(i % 2, i / 2), half, kept);
+    }
+
+  private:
+    const Camera& camera_;
+    const TileLists& tiles_;
+    const std::vector<Target>& targets_;
+    std::vector<std::vector<std::uint32_t>>& lists_;
+};
+
 }  // namespace
 
 TileLists makeTileLists(const Camera& camera, const std::vector<shared::Billboard>& billboards) {
@@ -104,17 +132,9 @@ TileLists makeTileLists(const Camera& camera, const std::vector<shared::Billboar
     std::iota(all.begin(), all.end(), 0U);
     const int groupsAcross = (tiles.across + groupEdge - 1) / groupEdge;
     const int groupsDown = (tiles.down + groupEdge - 1) / groupEdge;
-    const auto beamOf = [&](int x, int y, int edge) {
-        const glm::ivec2 lower = glm::ivec2(x, y) * shared::TILE_EDGE;
-        return Beam(camera, lower, lower + edge * shared::TILE_EDGE);
-    };
+    const Divider divider(camera, tiles, targets, lists);
     tbb::parallel_for(0, groupsAcross * groupsDown, [&](int group) {
-        const int x0 = group % groupsAcross * groupEdge, y0 = group / groupsAcross * groupEdge;
-        const auto candidates = keep(beamOf(x0, y0, groupEdge), targets, all);
-        if (candidates.empty()) return;
-        for (int y = y0; y < std::min(y0 + groupEdge, tiles.down); ++y)
-            for (int x = x0; x < std::min(x0 + groupEdge, tiles.across); ++x)
-                lists[static_cast<std::size_t>(y * tiles.across + x)] = keep(beamOf(x, y, 1), targets, candidates);
+        divider.divide(groupEdge * glm::ivec2(group % groupsAcross, group / groupsAcross), groupEdge, all);
     });
     tiles.offsets.push_back(0);
     for (const auto& list : lists) {

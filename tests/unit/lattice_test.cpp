@@ -22,16 +22,16 @@ TEST(LatticeSpacing, IsLessThanTwoVoxels) {
     EXPECT_EQ(latticeSpacing(1e9), 4);
 }
 
-/// Along one axis the blocks of pixels first … last look at points block − 1 … block + 2, those beyond the picture
-/// being the last one.
+/// Along one axis the blocks of pixels first … last, with halves one block more, look at points block − 1 … block + 2,
+/// those beyond the picture being the last one.
 void expectCovered(int first, int last, int spacing, int pixels, int point, int points) {
     const int end = (pixels - 1 + spacing - 1) / spacing;
     for (int pixel = first; pixel <= last; ++pixel)
-        for (int i = -1; i <= 2; ++i) {
+        for (int i = -1; i <= (hasHalves(spacing) ? 3 : 2); ++i) {
             const int needed = std::clamp(pixel / spacing + i, 0, end);
             ASSERT_EQ(std::clamp(pixel / spacing + i, point, point + points - 1), needed) << pixel << " " << i;
         }
-    EXPECT_LE(points, (last - first) / spacing + 5);
+    EXPECT_LE(points, (last - first) / spacing + (hasHalves(spacing) ? 6 : 5));
 }
 
 TEST(LatticeOf, CoversEveryTile) {

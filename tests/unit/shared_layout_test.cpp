@@ -27,6 +27,7 @@ namespace spirv {
 #include "spirv/cloud/sample.comp.h"
 #include "spirv/draw/billboards.comp.h"
 #include "spirv/draw/collector_sun.comp.h"
+#include "spirv/draw/interpolate.comp.h"
 #include "spirv/draw/light_cells.comp.h"
 #include "spirv/draw/light_counts.comp.h"
 #include "spirv/draw/sun_depth.comp.h"
@@ -118,7 +119,8 @@ TEST(SharedLayout, Draw) {
                   radianceScale, voxelToSun, sunOffset);
     EXPECT_LAYOUT(billboards_comp, LatticeParams, first, size, spacing, tolerance, depthTolerance);
     EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, field, lattice, tilesAcross, samples);
-    EXPECT_PUSH(billboards_comp, DrawPush, what, first, count);
+    EXPECT_PUSH(billboards_comp, DrawPush, what, first, count, edge);
+    EXPECT_PUSH(interpolate_comp, InterpolatePush, first, count, firstBlock, blocks);
     EXPECT_LAYOUT(billboards_comp, Pixel, radiance, cloud, transmittance, alpha, depth, front);
     EXPECT_PUSH(sun_depth_comp, SunDepthPush, gridToVoxel, originVoxel, inverseSize, grid, step, firstRow);
     EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, scale, eye, voxelToWorld);
