@@ -13,9 +13,10 @@ layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform usampler3D collectorIndex;
 layout(binding = 2, scalar) readonly buffer Fluences { CollectorFluence fluences[]; };
 layout(binding = 3, scalar) readonly buffer Deposits { int64_t deposits[]; };
-layout(binding = 4) uniform sampler3D cellMass;
-layout(binding = 5) uniform writeonly image3D counts;    // gain towards a direction (vector), ratio; 0: no density
-layout(binding = 6) uniform writeonly image3D ownShare;  // of the cell in the smoothed field; −1: nothing is near
+layout(binding = 4, r32f) uniform readonly image3D cellMass;
+layout(binding = 5) uniform writeonly image3D counts;    // gain towards a direction (vector), ratio
+layout(binding = 6) uniform writeonly image3D ownShare;  // of the cell in the smoothed field
+layout(binding = 7, scalar) readonly buffer LitCells { uint litCells[]; };
 layout(push_constant, scalar) uniform Push { LightCountsPush push; };
 
 const float PI = 3.14159265;
@@ -59,27 +60,10 @@ vec3 turnedBy(ivec3 cell, vec3 collectors) {
     return (fluxIn(first, across) - amount * collectors) / (amount + FLUX_PRIOR * push.photon);
 }
 
-/// Whether there is density in a cell or one beside it.
-bool nearDensity(ivec3 cell) {
-    float mass = 0.0;
-    for (int z = -1; z <= 1; ++z)
-        for (int y = -1; y <= 1; ++y)
-            for (int x = -1; x <= 1; ++x)
-                mass += texelFetch(cellMass, clamp(cell + ivec3(x, y, z), ivec3(0), push.grid - 1), 0).r;
-    return mass > 0.0;
-}
-
 void main() {
-    const uint index = linearInvocation(64u);
-    const uvec3 grid = uvec3(push.grid);
-    if (index >= grid.x * grid.y * grid.z) return;
-    const ivec3 cell = ivec3(index % grid.x, (index / grid.x) % grid.y, index / (grid.x * grid.y));
-    const float cellsMass = texelFetch(cellMass, cell, 0).r;
-    if (cellsMass == 0.0) {
-        imageStore(counts, cell, vec4(0.0));
-        imageStore(ownShare, cell, vec4(nearDensity(cell) ? 0.0 : -1.0));
-        return;
-    }
+    const uint entry = linearInvocation(64u);
+    if (entry >= push.occupied) return;
+    const ivec3 cell = cellNumbered(litCells[entry], push.grid);
     const ivec3 lower = push.edge * cell;
     const ivec3 upper = min(lower + push.edge, push.size);
     vec4 light = vec4(0.0);  // flux, fluence
@@ -99,7 +83,7 @@ void main() {
     if (light.w > 0.0 && push.photon > 0.0) {
         light /= mass;
         const float counted = countedIn(cell * push.depositsAcross, push.depositsAcross);
-        const float expected = light.w * cellsMass * push.massScale;
+        const float expected = light.w * imageLoad(cellMass, cell).r * push.massScale;
         const float prior = PRIOR * push.photon;
         const float ratio = (counted + prior) / (expected + prior);
         const vec3 turned = turnedBy(cell, light.xyz / light.w);

@@ -131,6 +131,8 @@ struct LightFieldPush {
     vec3 scale;  // cells → texture coordinates
     vec3 eye;    // voxel coordinates
     mat3 voxelToWorld;
+    uint occupied;  // cells with density, the first of the list
+    uint lit;       // cells of the list
 };
 
 /// What photons counted in its cells, against what their collectors have there.
@@ -145,6 +147,7 @@ struct LightCountsPush {
     float massScale;     // ∫ normalised density [voxels] → ∫ σt' dV [m²]
     float photon;        // mean luminance of a photon [W]
     float moment;        // of the phase function, of band 1
+    uint occupied;       // cells with density, the first of the list
 };
 
 #ifdef __cplusplus
@@ -158,8 +161,8 @@ static_assert(sizeof(DrawPush) == 20 && offsetof(DrawPush, count) == 12);
 static_assert(sizeof(Pixel) == 48 && offsetof(Pixel, front) == 44);
 static_assert(sizeof(SunDepthPush) == 80 && offsetof(SunDepthPush, firstRow) == 76);
 static_assert(sizeof(CollectorSunPush) == 64 && offsetof(CollectorSunPush, collectors) == 60);
-static_assert(sizeof(LightFieldPush) == 88 && offsetof(LightFieldPush, voxelToWorld) == 52);
-static_assert(sizeof(LightCountsPush) == 64 && offsetof(LightCountsPush, moment) == 60);
+static_assert(sizeof(LightFieldPush) == 96 && offsetof(LightFieldPush, lit) == 92);
+static_assert(sizeof(LightCountsPush) == 68 && offsetof(LightCountsPush, occupied) == 64);
 #endif
 
 SHARED_END

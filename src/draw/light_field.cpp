@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "draw/frame.h"
 #include "gpu/groups.h"
+#include "gpu/transfer.h"
 
 namespace lumulus::draw {
 
@@ -59,13 +61,23 @@ LightField::LightField(gpu::Context& context, const cloud::Cloud& cloud, const c
       counts_(context, "light counts", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
       ownShare_(context, "own share", grid_.cells, VK_FORMAT_R32_SFLOAT),
       cells_(context, "light cells", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
-      image_(context, "light field", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT) {
+      image_(context, "light field", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
+      lit_(findLitCells(context)),
+      litCells_(filledBuffer(context, "lit cells", lit_.numbers)) {}
+
+/// Fills the mass, and darkens the cells that are never filled.
+LitCells LightField::findLitCells(gpu::Context& context) const {
     gpu::Commands commands(context);
     commands.begin();
-    commands.dispatch(massProgram_, {{"density", cloud_.density, gpu::Sampler::linear}, {"cellMass", mass_}}, push(),
-                      gpu::linearGroups(grid_.count(), 64));
+    commands.dispatch(massProgram_,
+                      {{"density", cloud_.density, gpu::Sampler::linear},
+                       {"cellMass", mass_},
+                       {"cells", cells_},
+                       {"lightField", image_}},
+                      push(), gpu::linearGroups(grid_.count(), 64));
     commands.submit();
     commands.wait();
+    return litCells(grid_.cells, gpu::download<float>(context, mass_));
 }
 
 shared::LightFieldPush LightField::push() const {
@@ -93,16 +105,18 @@ void LightField::recordCounts(gpu::Commands& commands, const gpu::Buffer& fluenc
     values.massScale = static_cast<float>(deposits.massScale);
     values.photon = static_cast<float>(deposits.photonPower);
     values.moment = static_cast<float>(deposits.moment);
+    values.occupied = lit_.occupied;
     commands.pass("light counts");
     commands.dispatch(countsProgram_,
                       {{"density", cloud_.density, gpu::Sampler::nearest},
                        {"collectorIndex", cloud_.collectorIndex, gpu::Sampler::nearest},
                        {"Fluences", fluences},
                        {"Deposits", deposits.counts},
-                       {"cellMass", mass_, gpu::Sampler::nearest},
+                       {"cellMass", mass_},
                        {"counts", counts_},
-                       {"ownShare", ownShare_}},
-                      values, gpu::linearGroups(grid_.count(), 64));
+                       {"ownShare", ownShare_},
+                       {"LitCells", litCells_}},
+                      values, gpu::linearGroups(lit_.occupied, 64));
     commands.barrier("light counts");
 }
 
@@ -110,21 +124,24 @@ void LightField::record(gpu::Commands& commands, const glm::vec3& eyeVoxel, cons
     shared::LightFieldPush values = push();
     values.eye = eyeVoxel;
     values.voxelToWorld = glm::mat3(cloud_.toWorld.linear);
-    const glm::uvec3 groups = gpu::linearGroups(grid_.count(), 64);
+    values.occupied = lit_.occupied;
+    values.lit = static_cast<std::uint32_t>(lit_.numbers.size());
     commands.pass("light field");
     commands.dispatch(cellsProgram_,
                       {{"density", cloud_.density, gpu::Sampler::nearest},
                        {"collectorIndex", cloud_.collectorIndex, gpu::Sampler::nearest},
-                       {"radiance", radiance, gpu::Sampler::nearest},
-                       {"counts", counts_, gpu::Sampler::nearest},
-                       {"cells", cells_}},
-                      values, groups);
+                       {"radiance", radiance},
+                       {"counts", counts_},
+                       {"cells", cells_},
+                       {"LitCells", litCells_}},
+                      values, gpu::linearGroups(lit_.occupied, 64));
     commands.barrier("light cells");
     commands.dispatch(smoothProgram_,
                       {{"cells", cells_, gpu::Sampler::linear},
-                       {"ownShare", ownShare_, gpu::Sampler::nearest},
-                       {"lightField", image_}},
-                      values, groups);
+                       {"ownShare", ownShare_},
+                       {"lightField", image_},
+                       {"LitCells", litCells_}},
+                      values, gpu::linearGroups(lit_.numbers.size(), 64));
 }
 
 }  // namespace lumulus::draw

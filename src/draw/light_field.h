@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "cloud/cloud.h"
+#include "draw/lit_cells.h"
 #include "gpu/commands.h"
 #include "shared/draw.h"
 
@@ -22,7 +23,8 @@ struct Deposits {
 };
 
 /// In-scattered radiance towards the eye as a smooth field: the collectors' values on a grid of cells, scaled and
-/// turned by what was counted there. Collectors drawn one by one would show as blocks, and their noise as grain.
+/// turned by what was counted there. Only cells that are looked up are filled (LitCells). Collectors drawn one by one
+/// would show as blocks, and their noise as grain.
 class LightField {
   public:
     /// The cells of `deposits` are those of `grid` or finer.
@@ -41,12 +43,16 @@ class LightField {
     const cloud::CellGrid& grid() const { return grid_; }
 
   private:
+    LitCells findLitCells(gpu::Context& context) const;
+
     const cloud::Cloud& cloud_;
     cloud::CellGrid grid_, depositGrid_;
     gpu::Program<shared::LightFieldPush> massProgram_;
     gpu::Program<shared::LightCountsPush> countsProgram_;
     gpu::Program<shared::LightFieldPush> cellsProgram_, smoothProgram_;
     gpu::Image mass_, counts_, ownShare_, cells_, image_;
+    LitCells lit_;
+    gpu::Buffer litCells_;
 
     shared::LightFieldPush push() const;
 };

@@ -121,9 +121,9 @@ TEST(SharedLayout, Draw) {
     EXPECT_PUSH(billboards_comp, DrawPush, what, first, count);
     EXPECT_LAYOUT(billboards_comp, Pixel, radiance, cloud, transmittance, alpha, depth, front);
     EXPECT_PUSH(sun_depth_comp, SunDepthPush, gridToVoxel, originVoxel, inverseSize, grid, step, firstRow);
-    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, scale, eye, voxelToWorld);
+    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, scale, eye, voxelToWorld, occupied, lit);
     EXPECT_PUSH(light_counts_comp, LightCountsPush, size, grid, edge, depositCells, depositsAcross, depositBase,
-                depositScale, massScale, photon, moment);
+                depositScale, massScale, photon, moment, occupied);
     EXPECT_PUSH(collector_sun_comp, CollectorSunPush, voxelToTexture, textureOffset, inverseSize, collectors);
 }
 
