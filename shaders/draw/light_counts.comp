@@ -6,12 +6,14 @@
 #include "shared/deposits.h"
 #include "shared/draw.h"
 #include "shared/photon.h"
+#include "lib/density.glsl"
 #include "lib/linear.glsl"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const int EDGE = 1;  // of a cell, voxels
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform usampler3D collectorIndex;
-layout(binding = 2, scalar) readonly buffer Fluences { CollectorFluence fluences[]; };
+layout(binding = 2, rgba32f) uniform readonly image2D fluences;  // flux, fluence
 layout(binding = 3, scalar) readonly buffer Deposits { int64_t deposits[]; };
 layout(binding = 4, r32f) uniform readonly image3D cellMass;
 layout(binding = 5) uniform writeonly image3D counts;    // gain towards a direction (vector), ratio
@@ -64,17 +66,16 @@ void main() {
     const uint entry = linearInvocation(64u);
     if (entry >= push.occupied) return;
     const ivec3 cell = cellNumbered(litCells[entry], push.grid);
-    const ivec3 lower = push.edge * cell;
-    const ivec3 upper = min(lower + push.edge, push.size);
     vec4 light = vec4(0.0);  // flux, fluence
     float mass = 0.0;
-    for (int z = lower.z; z < upper.z; ++z)
-        for (int y = lower.y; y < upper.y; ++y)
-            for (int x = lower.x; x < upper.x; ++x) {
-                const float here = texelFetch(density, ivec3(x, y, z), 0).r;
+    for (int z = 0; z < EDGE; ++z)
+        for (int y = 0; y < EDGE; ++y)
+            for (int x = 0; x < EDGE; ++x) {
+                const ivec3 voxel = EDGE * cell + ivec3(x, y, z);
+                const float here = densityOf(density, voxel, push.size);
                 if (here > 0.0) {
-                    const CollectorFluence of = fluences[texelFetch(collectorIndex, ivec3(x, y, z), 0).r];
-                    light += here * vec4(of.flux, of.fluence);
+                    const uint collector = texelFetch(collectorIndex, voxel, 0).r;
+                    light += here * imageLoad(fluences, collectorTexel(collector));
                     mass += here;
                 }
             }

@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Mass of each cell of the light field, as photons meet it: the integral of the interpolated density [voxels]. All cells
-// are dark at first: those with nothing near stay so.
+// Mass of each cell of the light field, as photons meet it: the integral of the interpolated density [voxels].
 #include "shared/draw.h"
 #include "lib/density.glsl"
 #include "lib/linear.glsl"
@@ -9,8 +8,6 @@
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform writeonly image3D cellMass;
-layout(binding = 2) uniform writeonly image3D cells;
-layout(binding = 3) uniform writeonly image3D lightField;
 layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
 void main() {
@@ -25,6 +22,4 @@ void main() {
         for (int y = lower.y; y < upper.y; ++y)
             for (int x = lower.x; x < upper.x; ++x) sum += voxelMass(density, ivec3(x, y, z), inverseSize).x;
     imageStore(cellMass, cell, vec4(sum));
-    imageStore(cells, cell, vec4(0.0));
-    imageStore(lightField, cell, vec4(0.0));
 }

@@ -6,7 +6,7 @@
 #include "lib/linear.glsl"
 
 layout(local_size_x = 64) in;
-layout(binding = 0) uniform sampler3D cells;
+layout(binding = 0, rgba32f) uniform readonly image3D cells;  // with a ring of empty ones
 layout(binding = 1, r32f) uniform readonly image3D ownShare;
 layout(binding = 2) uniform writeonly image3D lightField;
 layout(binding = 3, scalar) readonly buffer LitCells { uint litCells[]; };
@@ -16,13 +16,14 @@ void main() {
     const uint entry = linearInvocation(64u);
     if (entry >= push.lit) return;
     const ivec3 cell = cellNumbered(litCells[entry], push.grid);
-    // the mean of the eight linear look-ups half a cell away has exactly these weights
     vec4 sum = vec4(0.0);
-    for (int corner = 0; corner < 8; ++corner) {
-        const ivec3 upper = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
-        sum += textureLod(cells, vec3(cell + upper) * push.scale, 0.0);
-    }
-    sum *= 0.125;
-    if (entry < push.occupied) sum = mix(sum, texelFetch(cells, cell, 0), imageLoad(ownShare, cell).r);
+    for (int z = -1; z <= 1; ++z)
+        for (int y = -1; y <= 1; ++y)
+            for (int x = -1; x <= 1; ++x) {
+                const float weight = float((2 - abs(x)) * (2 - abs(y)) * (2 - abs(z)));
+                sum += weight * imageLoad(cells, cell + 1 + ivec3(x, y, z));
+            }
+    sum *= 1.0 / 64.0;
+    if (entry < push.occupied) sum = mix(sum, imageLoad(cells, cell + 1), imageLoad(ownShare, cell).r);
     imageStore(lightField, cell, sum);
 }

@@ -69,8 +69,8 @@ struct DrawParams {
     int samples;  // rays a pixel, along each side: a grid of them where pixels are larger than voxels
 };
 
-/// Which pixels a dispatch draws: a rectangle of them; a rectangle of lattice points; or those pixels of a rectangle that
-/// lie in listed blocks, a block being the pixels from a lattice point to the next ones.
+/// Which pixels a dispatch draws: a rectangle of them; a rectangle of lattice points; or those pixels of a rectangle
+/// that lie in listed blocks, a block being the pixels from a lattice point to the next ones.
 const int DRAW_PIXELS = 0;
 const int DRAW_LATTICE = 1;
 const int DRAW_BLOCKS = 2;
@@ -128,7 +128,6 @@ struct LightFieldPush {
     ivec3 size;  // voxels
     ivec3 grid;  // cells
     int edge;    // of a cell, voxels
-    vec3 scale;  // cells → texture coordinates
     vec3 eye;    // voxel coordinates
     mat3 voxelToWorld;
     uint occupied;  // cells with density, the first of the list
@@ -139,7 +138,6 @@ struct LightFieldPush {
 struct LightCountsPush {
     ivec3 size;  // voxels
     ivec3 grid;  // cells
-    int edge;    // of a cell, voxels
     ivec3 depositCells;
     int depositsAcross;  // cells of the deposits along an edge of a cell
     uint depositBase;
@@ -161,8 +159,8 @@ static_assert(sizeof(DrawPush) == 20 && offsetof(DrawPush, count) == 12);
 static_assert(sizeof(Pixel) == 48 && offsetof(Pixel, front) == 44);
 static_assert(sizeof(SunDepthPush) == 80 && offsetof(SunDepthPush, firstRow) == 76);
 static_assert(sizeof(CollectorSunPush) == 64 && offsetof(CollectorSunPush, collectors) == 60);
-static_assert(sizeof(LightFieldPush) == 96 && offsetof(LightFieldPush, lit) == 92);
-static_assert(sizeof(LightCountsPush) == 68 && offsetof(LightCountsPush, occupied) == 64);
+static_assert(sizeof(LightFieldPush) == 84 && offsetof(LightFieldPush, lit) == 80);
+static_assert(sizeof(LightCountsPush) == 64 && offsetof(LightCountsPush, occupied) == 60);
 #endif
 
 SHARED_END

@@ -54,27 +54,26 @@ LightField::LightField(gpu::Context& context, const cloud::Cloud& cloud, const c
       grid_(grid),
       depositGrid_(deposits),
       massProgram_(context, "light_mass", spirv::light_mass_comp),
-      countsProgram_(context, "light_counts", spirv::light_counts_comp),
-      cellsProgram_(context, "light_cells", spirv::light_cells_comp),
+      countsProgram_(context, "light_counts", spirv::light_counts_comp, {gpu::SpecConstant::of(0, grid_.edge)}),
+      cellsProgram_(context, "light_cells", spirv::light_cells_comp, {gpu::SpecConstant::of(0, grid_.edge)}),
       smoothProgram_(context, "light_smooth", spirv::light_smooth_comp),
       mass_(context, "light cell mass", grid_.cells, VK_FORMAT_R32_SFLOAT),
       counts_(context, "light counts", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
       ownShare_(context, "own share", grid_.cells, VK_FORMAT_R32_SFLOAT),
-      cells_(context, "light cells", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
+      cells_(context, "light cells", grid_.cells + 2, VK_FORMAT_R32G32B32A32_SFLOAT),
       image_(context, "light field", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
       lit_(findLitCells(context)),
-      litCells_(filledBuffer(context, "lit cells", lit_.numbers)) {}
+      litCells_(filledBuffer(context, "lit cells", lit_.numbers)) {
+    // what is not in the list stays dark
+    for (gpu::Image* image : {&cells_, &image_}) gpu::upload(context, *image, std::vector<std::byte>(image->bytes()));
+}
 
-/// Fills the mass, and darkens the cells that are never filled.
+/// Fills the mass.
 LitCells LightField::findLitCells(gpu::Context& context) const {
     gpu::Commands commands(context);
     commands.begin();
-    commands.dispatch(massProgram_,
-                      {{"density", cloud_.density, gpu::Sampler::linear},
-                       {"cellMass", mass_},
-                       {"cells", cells_},
-                       {"lightField", image_}},
-                      push(), gpu::linearGroups(grid_.count(), 64));
+    commands.dispatch(massProgram_, {{"density", cloud_.density, gpu::Sampler::linear}, {"cellMass", mass_}}, push(),
+                      gpu::linearGroups(grid_.count(), 64));
     commands.submit();
     commands.wait();
     return litCells(grid_.cells, gpu::download<float>(context, mass_));
@@ -85,7 +84,6 @@ shared::LightFieldPush LightField::push() const {
     push.size = cloud_.size;
     push.grid = grid_.cells;
     push.edge = grid_.edge;
-    push.scale = 1.0F / glm::vec3(grid_.cells);
     return push;
 }
 
@@ -93,11 +91,10 @@ glm::vec3 LightField::scale() const {
     return 1.0F / glm::vec3(grid_.cells * grid_.edge);
 }
 
-void LightField::recordCounts(gpu::Commands& commands, const gpu::Buffer& fluences, const Deposits& deposits) const {
+void LightField::recordCounts(gpu::Commands& commands, const gpu::Image& fluences, const Deposits& deposits) const {
     shared::LightCountsPush values{};
     values.size = cloud_.size;
     values.grid = grid_.cells;
-    values.edge = grid_.edge;
     values.depositCells = depositGrid_.cells;
     values.depositsAcross = grid_.edge / depositGrid_.edge;
     values.depositBase = deposits.base;
@@ -110,7 +107,7 @@ void LightField::recordCounts(gpu::Commands& commands, const gpu::Buffer& fluenc
     commands.dispatch(countsProgram_,
                       {{"density", cloud_.density, gpu::Sampler::nearest},
                        {"collectorIndex", cloud_.collectorIndex, gpu::Sampler::nearest},
-                       {"Fluences", fluences},
+                       {"fluences", fluences},
                        {"Deposits", deposits.counts},
                        {"cellMass", mass_},
                        {"counts", counts_},
@@ -137,10 +134,7 @@ void LightField::record(gpu::Commands& commands, const glm::vec3& eyeVoxel, cons
                       values, gpu::linearGroups(lit_.occupied, 64));
     commands.barrier("light cells");
     commands.dispatch(smoothProgram_,
-                      {{"cells", cells_, gpu::Sampler::linear},
-                       {"ownShare", ownShare_},
-                       {"lightField", image_},
-                       {"LitCells", litCells_}},
+                      {{"cells", cells_}, {"ownShare", ownShare_}, {"lightField", image_}, {"LitCells", litCells_}},
                       values, gpu::linearGroups(lit_.numbers.size(), 64));
 }
 

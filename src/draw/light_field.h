@@ -31,8 +31,8 @@ class LightField {
     LightField(gpu::Context& context, const cloud::Cloud& cloud, const cloud::CellGrid& grid,
                const cloud::CellGrid& deposits);
 
-    /// Records what is the same for all views: the deposits against the collectors' CollectorFluence.
-    void recordCounts(gpu::Commands& commands, const gpu::Buffer& fluences, const Deposits& deposits) const;
+    /// Records what is the same for all views: the deposits against the collectors' fluences.
+    void recordCounts(gpu::Commands& commands, const gpu::Image& fluences, const Deposits& deposits) const;
     /// Records what fills the grid for an eye, from the collectors' radiance towards it.
     void record(gpu::Commands& commands, const glm::vec3& eyeVoxel, const gpu::Image& radiance) const;
 
@@ -50,7 +50,9 @@ class LightField {
     gpu::Program<shared::LightFieldPush> massProgram_;
     gpu::Program<shared::LightCountsPush> countsProgram_;
     gpu::Program<shared::LightFieldPush> cellsProgram_, smoothProgram_;
-    gpu::Image mass_, counts_, ownShare_, cells_, image_;
+    gpu::Image mass_, counts_, ownShare_;
+    gpu::Image cells_;  // with a ring of empty ones, which smoothing reads
+    gpu::Image image_;
     LitCells lit_;
     gpu::Buffer litCells_;
 
