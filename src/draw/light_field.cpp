@@ -24,6 +24,12 @@ namespace spirv {
 constexpr double photonsInCell = 16.0, fewestAlong = 32.0;
 /// 64 MiB each for the counts, the cells and the smoothed field.
 constexpr std::uint64_t maxCells = 1ULL << 22U;
+/// With a ring round them they fit into 2048 texels, which is what lavapipe's volumes have.
+constexpr int maxAlong = 2046;
+
+int largestOf(const glm::ivec3& v) {
+    return std::max(v.x, std::max(v.y, v.z));
+}
 
 /// Voxels with density.
 double occupiedVoxels(const cloud::Cloud& cloud) {
@@ -35,13 +41,13 @@ double occupiedVoxels(const cloud::Cloud& cloud) {
 }  // namespace
 
 cloud::CellGrid lightGrid(const cloud::Cloud& cloud, std::uint64_t photons) {
-    const int longest = std::max(cloud.size.x, std::max(cloud.size.y, cloud.size.z));
+    const int longest = largestOf(cloud.size);
     const double wanted = std::min(std::cbrt(photonsInCell * occupiedVoxels(cloud) / static_cast<double>(photons)),
                                    longest / fewestAlong);
     cloud::CellGrid grid;
     grid.edge = 1 << std::max(0L, std::lround(std::log2(wanted)));
     grid.cells = (cloud.size + grid.edge - 1) / grid.edge;
-    while (grid.count() > maxCells) {
+    while (grid.count() > maxCells || largestOf(grid.cells) > maxAlong) {
         grid.edge *= 2;
         grid.cells = (cloud.size + grid.edge - 1) / grid.edge;
     }

@@ -70,6 +70,8 @@ Grid<double> shell() {
     return density;
 }
 
+class LongCloud : public test::VulkanTest {};
+
 class LightFieldTest : public test::VulkanTest, public testing::WithParamInterface<int> {
   protected:
     Grid<double> density = shell();
@@ -144,6 +146,17 @@ TEST_P(LightFieldTest, HoldsWhatWasCountedAndNothingElse) {
     }
     EXPECT_GT(dark, cells.count() / 8);
     EXPECT_LT(dark, cells.count() * 7 / 8);
+}
+
+/// The longest volume that lavapipe takes, with more photons than voxels.
+TEST_F(LongCloud, HasRoomForTheRing) {
+    vdb::Volume volume = test::emptyVolume({2048, 4, 4});
+    test::fillVolume(volume, [](const ivec3&) { return 1.0; });
+    const cloud::Cloud cloud = cloud::prepare(context, volume, test::prepareOptions(50));
+    const cloud::CellGrid cells = lightGrid(cloud, 1'000'000'000);
+    EXPECT_EQ(cells.edge, 2);
+    const LightField field(context, cloud, cells, cells);
+    EXPECT_EQ(field.image().extent(), ivec3(1024, 2, 2));
 }
 
 INSTANTIATE_TEST_SUITE_P(Edges, LightFieldTest, testing::Values(1, 2, 4));
