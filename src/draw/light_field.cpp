@@ -24,7 +24,7 @@ namespace spirv {
 constexpr double photonsInCell = 16.0, fewestAlong = 32.0;
 /// 64 MiB each for the counts, the cells and the smoothed field.
 constexpr std::uint64_t maxCells = 1ULL << 22U;
-/// With a ring round them they fit into 2048 texels, which is what lavapipe's volumes have.
+/// With a ring round them they fit into 2048 texels, the least that desktop devices have along a volume.
 constexpr int maxAlong = 2046;
 
 int largestOf(const glm::ivec3& v) {

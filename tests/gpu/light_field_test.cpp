@@ -148,7 +148,7 @@ TEST_P(LightFieldTest, HoldsWhatWasCountedAndNothingElse) {
     EXPECT_LT(dark, cells.count() * 7 / 8);
 }
 
-/// The longest volume that lavapipe takes, with more photons than voxels.
+/// As long as volumes may be where devices have 2048 texels along them, with more photons than voxels.
 TEST_F(LongCloud, HasRoomForTheRing) {
     vdb::Volume volume = test::emptyVolume({2048, 4, 4});
     test::fillVolume(volume, [](const ivec3&) { return 1.0; });
