@@ -1,50 +1,46 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Radiance of the collectors towards the eye in each cell of a grid, their mean by mass, scaled and turned by what was
-// counted in the cell (light_counts.comp). Fourth component: 1 where there is density.
+// Radiance of the collectors towards the eye in each cell with density, their mean by mass, scaled and turned by what was
+// counted in the cell (light_counts.comp). Fourth component: 1 where voxels have density.
 #include "shared/draw.h"
 #include "shared/photon.h"
+#include "lib/density.glsl"
 #include "lib/linear.glsl"
 #include "lib/luminance.glsl"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const int EDGE = 1;  // of a cell, voxels
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform usampler3D collectorIndex;
-layout(binding = 2) uniform sampler2D radiance;
-layout(binding = 3) uniform sampler3D counts;
-layout(binding = 4) uniform writeonly image3D cells;
+layout(binding = 2, rgba32f) uniform readonly image2D radiance;
+layout(binding = 3, rgba32f) uniform readonly image3D counts;
+layout(binding = 4) uniform writeonly image3D cells;  // with a ring of empty ones
+layout(binding = 5, scalar) readonly buffer LitCells { uint litCells[]; };
 layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
 void main() {
-    const uint index = linearInvocation(64u);
-    const uvec3 grid = uvec3(push.grid);
-    if (index >= grid.x * grid.y * grid.z) return;
-    const ivec3 cell = ivec3(index % grid.x, (index / grid.x) % grid.y, index / (grid.x * grid.y));
-    const vec4 counted = texelFetch(counts, cell, 0);
-    if (counted.w == 0.0) {
-        imageStore(cells, cell, vec4(0.0));
-        return;
-    }
-    const ivec3 lower = push.edge * cell;
-    const ivec3 upper = min(lower + push.edge, push.size);
+    const uint entry = linearInvocation(64u);
+    if (entry >= push.occupied) return;
+    const ivec3 cell = cellNumbered(litCells[entry], push.grid);
     vec4 light = vec4(0.0);
-    for (int z = lower.z; z < upper.z; ++z)
-        for (int y = lower.y; y < upper.y; ++y)
-            for (int x = lower.x; x < upper.x; ++x) {
-                const float mass = texelFetch(density, ivec3(x, y, z), 0).r;
+    for (int z = 0; z < EDGE; ++z)
+        for (int y = 0; y < EDGE; ++y)
+            for (int x = 0; x < EDGE; ++x) {
+                const ivec3 voxel = EDGE * cell + ivec3(x, y, z);
+                const float mass = densityOf(density, voxel, push.size);
                 if (mass > 0.0) {
-                    const uint collector = texelFetch(collectorIndex, ivec3(x, y, z), 0).r;
-                    const ivec2 place = ivec2(collector % RADIANCE_WIDTH, collector / RADIANCE_WIDTH);
-                    light += mass * texelFetch(radiance, place, 0);
+                    const uint collector = texelFetch(collectorIndex, voxel, 0).r;
+                    light += mass * imageLoad(radiance, collectorTexel(collector));
                 }
             }
     // Cells count alike, however thin: weighted by mass, what is bright and thin would take the colour of what is behind.
     if (light.a > 0.0) light /= light.a;
     const float bright = luminance(light.rgb);
     if (bright > 0.0) {
-        const vec3 away = push.voxelToWorld * (push.eye - (vec3(cell) + 0.5) * float(push.edge));
+        const vec4 counted = imageLoad(counts, cell);
+        const vec3 away = push.voxelToWorld * (push.eye - (vec3(cell) + 0.5) * float(EDGE));
         const float gain = dot(counted.xyz, away) * inversesqrt(max(dot(away, away), 1e-30));
         light.rgb *= max(counted.w + gain / bright, 0.0);
     }
-    imageStore(cells, cell, light);
+    imageStore(cells, cell + 1, light);
 }

@@ -6,16 +6,19 @@
 #include "shared/deposits.h"
 #include "shared/draw.h"
 #include "shared/photon.h"
+#include "lib/density.glsl"
 #include "lib/linear.glsl"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const int EDGE = 1;  // of a cell, voxels
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform usampler3D collectorIndex;
-layout(binding = 2, scalar) readonly buffer Fluences { CollectorFluence fluences[]; };
+layout(binding = 2, rgba32f) uniform readonly image2D fluences;  // flux, fluence
 layout(binding = 3, scalar) readonly buffer Deposits { int64_t deposits[]; };
-layout(binding = 4) uniform sampler3D cellMass;
-layout(binding = 5) uniform writeonly image3D counts;    // gain towards a direction (vector), ratio; 0: no density
-layout(binding = 6) uniform writeonly image3D ownShare;  // of the cell in the smoothed field; −1: nothing is near
+layout(binding = 4, r32f) uniform readonly image3D cellMass;
+layout(binding = 5) uniform writeonly image3D counts;    // gain towards a direction (vector), ratio
+layout(binding = 6) uniform writeonly image3D ownShare;  // of the cell in the smoothed field
+layout(binding = 7, scalar) readonly buffer LitCells { uint litCells[]; };
 layout(push_constant, scalar) uniform Push { LightCountsPush push; };
 
 const float PI = 3.14159265;
@@ -59,38 +62,20 @@ vec3 turnedBy(ivec3 cell, vec3 collectors) {
     return (fluxIn(first, across) - amount * collectors) / (amount + FLUX_PRIOR * push.photon);
 }
 
-/// Whether there is density in a cell or one beside it.
-bool nearDensity(ivec3 cell) {
-    float mass = 0.0;
-    for (int z = -1; z <= 1; ++z)
-        for (int y = -1; y <= 1; ++y)
-            for (int x = -1; x <= 1; ++x)
-                mass += texelFetch(cellMass, clamp(cell + ivec3(x, y, z), ivec3(0), push.grid - 1), 0).r;
-    return mass > 0.0;
-}
-
 void main() {
-    const uint index = linearInvocation(64u);
-    const uvec3 grid = uvec3(push.grid);
-    if (index >= grid.x * grid.y * grid.z) return;
-    const ivec3 cell = ivec3(index % grid.x, (index / grid.x) % grid.y, index / (grid.x * grid.y));
-    const float cellsMass = texelFetch(cellMass, cell, 0).r;
-    if (cellsMass == 0.0) {
-        imageStore(counts, cell, vec4(0.0));
-        imageStore(ownShare, cell, vec4(nearDensity(cell) ? 0.0 : -1.0));
-        return;
-    }
-    const ivec3 lower = push.edge * cell;
-    const ivec3 upper = min(lower + push.edge, push.size);
+    const uint entry = linearInvocation(64u);
+    if (entry >= push.occupied) return;
+    const ivec3 cell = cellNumbered(litCells[entry], push.grid);
     vec4 light = vec4(0.0);  // flux, fluence
     float mass = 0.0;
-    for (int z = lower.z; z < upper.z; ++z)
-        for (int y = lower.y; y < upper.y; ++y)
-            for (int x = lower.x; x < upper.x; ++x) {
-                const float here = texelFetch(density, ivec3(x, y, z), 0).r;
+    for (int z = 0; z < EDGE; ++z)
+        for (int y = 0; y < EDGE; ++y)
+            for (int x = 0; x < EDGE; ++x) {
+                const ivec3 voxel = EDGE * cell + ivec3(x, y, z);
+                const float here = densityOf(density, voxel, push.size);
                 if (here > 0.0) {
-                    const CollectorFluence of = fluences[texelFetch(collectorIndex, ivec3(x, y, z), 0).r];
-                    light += here * vec4(of.flux, of.fluence);
+                    const uint collector = texelFetch(collectorIndex, voxel, 0).r;
+                    light += here * imageLoad(fluences, collectorTexel(collector));
                     mass += here;
                 }
             }
@@ -99,7 +84,7 @@ void main() {
     if (light.w > 0.0 && push.photon > 0.0) {
         light /= mass;
         const float counted = countedIn(cell * push.depositsAcross, push.depositsAcross);
-        const float expected = light.w * cellsMass * push.massScale;
+        const float expected = light.w * imageLoad(cellMass, cell).r * push.massScale;
         const float prior = PRIOR * push.photon;
         const float ratio = (counted + prior) / (expected + prior);
         const vec3 turned = turnedBy(cell, light.xyz / light.w);

@@ -12,9 +12,8 @@ layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
 void main() {
     const uint index = linearInvocation(64u);
-    const uvec3 grid = uvec3(push.grid);
-    if (index >= grid.x * grid.y * grid.z) return;
-    const ivec3 cell = ivec3(index % grid.x, (index / grid.x) % grid.y, index / (grid.x * grid.y));
+    if (index >= uint(push.grid.x) * uint(push.grid.y) * uint(push.grid.z)) return;
+    const ivec3 cell = cellNumbered(index, push.grid);
     const ivec3 lower = push.edge * cell;
     const ivec3 upper = min(lower + push.edge, push.size);
     const vec3 inverseSize = 1.0 / vec3(push.size);

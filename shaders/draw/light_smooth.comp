@@ -6,26 +6,24 @@
 #include "lib/linear.glsl"
 
 layout(local_size_x = 64) in;
-layout(binding = 0) uniform sampler3D cells;
-layout(binding = 1) uniform sampler3D ownShare;
+layout(binding = 0, rgba32f) uniform readonly image3D cells;  // with a ring of empty ones
+layout(binding = 1, r32f) uniform readonly image3D ownShare;
 layout(binding = 2) uniform writeonly image3D lightField;
+layout(binding = 3, scalar) readonly buffer LitCells { uint litCells[]; };
 layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
 void main() {
-    const uint index = linearInvocation(64u);
-    const uvec3 grid = uvec3(push.grid);
-    if (index >= grid.x * grid.y * grid.z) return;
-    const ivec3 cell = ivec3(index % grid.x, (index / grid.x) % grid.y, index / (grid.x * grid.y));
-    const float own = texelFetch(ownShare, cell, 0).r;
-    if (own < 0.0) {
-        imageStore(lightField, cell, vec4(0.0));
-        return;
-    }
-    // the mean of the eight linear look-ups half a cell away has exactly these weights
+    const uint entry = linearInvocation(64u);
+    if (entry >= push.lit) return;
+    const ivec3 cell = cellNumbered(litCells[entry], push.grid);
     vec4 sum = vec4(0.0);
-    for (int corner = 0; corner < 8; ++corner) {
-        const ivec3 upper = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
-        sum += textureLod(cells, vec3(cell + upper) * push.scale, 0.0);
-    }
-    imageStore(lightField, cell, mix(0.125 * sum, texelFetch(cells, cell, 0), own));
+    for (int z = -1; z <= 1; ++z)
+        for (int y = -1; y <= 1; ++y)
+            for (int x = -1; x <= 1; ++x) {
+                const float weight = float((2 - abs(x)) * (2 - abs(y)) * (2 - abs(z)));
+                sum += weight * imageLoad(cells, cell + 1 + ivec3(x, y, z));
+            }
+    sum *= 1.0 / 64.0;
+    if (entry < push.occupied) sum = mix(sum, imageLoad(cells, cell + 1), imageLoad(ownShare, cell).r);
+    imageStore(lightField, cell, sum);
 }

@@ -13,7 +13,7 @@ layout(constant_id = 0) const int BANDS = 5;
 layout(binding = 0, scalar) readonly buffer Sum { int64_t sum[]; };
 layout(binding = 1, scalar) readonly buffer Moments { float moments[]; };      // of the phase function, by band
 layout(binding = 2, scalar) readonly buffer Collectors { vec4 collectors[]; };  // centre, mass [m²]
-layout(binding = 3, scalar) writeonly buffer Fluences { CollectorFluence fluences[]; };
+layout(binding = 3) uniform writeonly image2D fluences;  // of luminance, per unit of the leaf's ∫ σt' dV: flux, fluence
 layout(binding = 4) uniform writeonly image2D radiance;
 layout(push_constant, scalar) uniform Push { ReconstructPush push; };
 
@@ -45,6 +45,7 @@ void main() {
         }
         flux *= 0.5773502692;
     }
-    fluences[collector] = CollectorFluence(unit / y[0] * flux, unit / y[0] * luminance(mean));
-    imageStore(radiance, ivec2(collector % RADIANCE_WIDTH, collector / RADIANCE_WIDTH), vec4(unit * total, 1.0));
+    const ivec2 texel = collectorTexel(collector);
+    imageStore(fluences, texel, vec4(unit / y[0] * flux, unit / y[0] * luminance(mean)));
+    imageStore(radiance, texel, vec4(unit * total, 1.0));
 }

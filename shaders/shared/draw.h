@@ -70,13 +70,14 @@ struct DrawParams {
 };
 
 /// Which pixels a dispatch draws: a rectangle of them; a rectangle of lattice points; those pixels of a rectangle that
-/// lie in listed squares; or, of a rectangle of every second pixel of every second row, the three in listed blocks (four by
-/// four pixels, from a lattice point to the next ones) that are no lattice points.
+/// lie in listed squares; or, of a rectangle of every second pixel of every second row, the three in listed blocks
+/// (four by four pixels, from a lattice point to the next ones) that are no lattice points.
 const int DRAW_PIXELS = 0;
 const int DRAW_LATTICE = 1;
 const int DRAW_SQUARES = 2;
 const int DRAW_HALVES = 3;
-/// Invocations of a workgroup that draws, 16×4, and blocks that one draws halves of: the invocations of lattice points idle.
+/// Invocations of a workgroup that draws, 16×4, and blocks that one draws halves of: the invocations of lattice points
+/// idle.
 const int DRAW_GROUP = 64;
 const int HALVES_GROUP = 16;
 
@@ -140,16 +141,16 @@ struct LightFieldPush {
     ivec3 size;  // voxels
     ivec3 grid;  // cells
     int edge;    // of a cell, voxels
-    vec3 scale;  // cells → texture coordinates
     vec3 eye;    // voxel coordinates
     mat3 voxelToWorld;
+    uint occupied;  // cells with density, the first of the list
+    uint lit;       // cells of the list
 };
 
 /// What photons counted in its cells, against what their collectors have there.
 struct LightCountsPush {
     ivec3 size;  // voxels
     ivec3 grid;  // cells
-    int edge;    // of a cell, voxels
     ivec3 depositCells;
     int depositsAcross;  // cells of the deposits along an edge of a cell
     uint depositBase;
@@ -157,6 +158,7 @@ struct LightCountsPush {
     float massScale;     // ∫ normalised density [voxels] → ∫ σt' dV [m²]
     float photon;        // mean luminance of a photon [W]
     float moment;        // of the phase function, of band 1
+    uint occupied;       // cells with density, the first of the list
 };
 
 #ifdef __cplusplus
@@ -171,8 +173,8 @@ static_assert(sizeof(InterpolatePush) == 32 && offsetof(InterpolatePush, blocks)
 static_assert(sizeof(Pixel) == 40 && offsetof(Pixel, front) == 36);
 static_assert(sizeof(SunDepthPush) == 80 && offsetof(SunDepthPush, firstRow) == 76);
 static_assert(sizeof(CollectorSunPush) == 64 && offsetof(CollectorSunPush, collectors) == 60);
-static_assert(sizeof(LightFieldPush) == 88 && offsetof(LightFieldPush, voxelToWorld) == 52);
-static_assert(sizeof(LightCountsPush) == 64 && offsetof(LightCountsPush, moment) == 60);
+static_assert(sizeof(LightFieldPush) == 84 && offsetof(LightFieldPush, lit) == 80);
+static_assert(sizeof(LightCountsPush) == 64 && offsetof(LightCountsPush, occupied) == 60);
 #endif
 
 SHARED_END

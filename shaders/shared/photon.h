@@ -13,8 +13,12 @@ const float COEFFICIENT_SCALE = 8.0F;
 /// Records that one invocation of the gather pass adds up.
 const uint GATHER_CHUNK = 64U;
 const uint NO_COLLECTOR = 0xFFFFFFFFU;
-/// Texels in a row of the image of the collectors' radiance.
-const uint RADIANCE_WIDTH = 4096U;
+/// Texels in a row of an image that has one for each collector.
+const uint COLLECTORS_WIDTH = 4096U;
+
+SHARED_FN ivec2 collectorTexel(uint collector) {
+    return ivec2(collector % COLLECTORS_WIDTH, collector / COLLECTORS_WIDTH);
+}
 
 /// How photons move through the cloud. Lengths are metres; `power` is in record units.
 struct TraceParams {
@@ -86,12 +90,6 @@ struct TraceCounters {
     uint unused;
 };
 
-/// Light of all directions in a collector, per unit of its ∫ σt' dV: luminance, and luminance times direction of travel.
-struct CollectorFluence {
-    vec3 flux;
-    float fluence;
-};
-
 struct GatherPush {
     uint collectors;
     uint invocations;
@@ -117,7 +115,6 @@ static_assert(sizeof(TraceParams) == 260 && offsetof(TraceParams, depositCells) 
 static_assert(sizeof(TraceState) == 72 && offsetof(TraceState, alive) == 68);
 static_assert(sizeof(PhotonRecord) == 16 && offsetof(PhotonRecord, power) == 8);
 static_assert(sizeof(TraceCounters) == 80 && offsetof(TraceCounters, unused) == 76);
-static_assert(sizeof(CollectorFluence) == 16 && offsetof(CollectorFluence, fluence) == 12);
 static_assert(sizeof(GatherPush) == 12 && offsetof(GatherPush, recordCapacity) == 8);
 static_assert(sizeof(AccumulatePush) == 12 && offsetof(AccumulatePush, keepSlots) == 8);
 static_assert(sizeof(ReconstructPush) == 56 && offsetof(ReconstructPush, voxelToWorld) == 20);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "draw/frame.h"
 #include "gpu/groups.h"
+#include "gpu/transfer.h"
 
 namespace lumulus::draw {
 
@@ -22,6 +24,12 @@ namespace spirv {
 constexpr double photonsInCell = 16.0, fewestAlong = 32.0;
 /// 64 MiB each for the counts, the cells and the smoothed field.
 constexpr std::uint64_t maxCells = 1ULL << 22U;
+/// With a ring round them they fit into 2048 texels, the least that desktop devices have along a volume.
+constexpr int maxAlong = 2046;
+
+int largestOf(const glm::ivec3& v) {
+    return std::max(v.x, std::max(v.y, v.z));
+}
 
 /// Voxels with density.
 double occupiedVoxels(const cloud::Cloud& cloud) {
@@ -33,13 +41,13 @@ double occupiedVoxels(const cloud::Cloud& cloud) {
 }  // namespace
 
 cloud::CellGrid lightGrid(const cloud::Cloud& cloud, std::uint64_t photons) {
-    const int longest = std::max(cloud.size.x, std::max(cloud.size.y, cloud.size.z));
+    const int longest = largestOf(cloud.size);
     const double wanted = std::min(std::cbrt(photonsInCell * occupiedVoxels(cloud) / static_cast<double>(photons)),
                                    longest / fewestAlong);
     cloud::CellGrid grid;
     grid.edge = 1 << std::max(0L, std::lround(std::log2(wanted)));
     grid.cells = (cloud.size + grid.edge - 1) / grid.edge;
-    while (grid.count() > maxCells) {
+    while (grid.count() > maxCells || largestOf(grid.cells) > maxAlong) {
         grid.edge *= 2;
         grid.cells = (cloud.size + grid.edge - 1) / grid.edge;
     }
@@ -52,20 +60,29 @@ LightField::LightField(gpu::Context& context, const cloud::Cloud& cloud, const c
       grid_(grid),
       depositGrid_(deposits),
       massProgram_(context, "light_mass", spirv::light_mass_comp),
-      countsProgram_(context, "light_counts", spirv::light_counts_comp),
-      cellsProgram_(context, "light_cells", spirv::light_cells_comp),
+      countsProgram_(context, "light_counts", spirv::light_counts_comp, {gpu::SpecConstant::of(0, grid_.edge)}),
+      cellsProgram_(context, "light_cells", spirv::light_cells_comp, {gpu::SpecConstant::of(0, grid_.edge)}),
       smoothProgram_(context, "light_smooth", spirv::light_smooth_comp),
       mass_(context, "light cell mass", grid_.cells, VK_FORMAT_R32_SFLOAT),
       counts_(context, "light counts", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
       ownShare_(context, "own share", grid_.cells, VK_FORMAT_R32_SFLOAT),
-      cells_(context, "light cells", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
-      image_(context, "light field", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT) {
+      cells_(context, "light cells", grid_.cells + 2, VK_FORMAT_R32G32B32A32_SFLOAT),
+      image_(context, "light field", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
+      lit_(findLitCells(context)),
+      litCells_(filledBuffer(context, "lit cells", lit_.numbers)) {
+    // what is not in the list stays dark
+    for (gpu::Image* image : {&cells_, &image_}) gpu::upload(context, *image, std::vector<std::byte>(image->bytes()));
+}
+
+/// Fills the mass.
+LitCells LightField::findLitCells(gpu::Context& context) const {
     gpu::Commands commands(context);
     commands.begin();
     commands.dispatch(massProgram_, {{"density", cloud_.density, gpu::Sampler::linear}, {"cellMass", mass_}}, push(),
                       gpu::linearGroups(grid_.count(), 64));
     commands.submit();
     commands.wait();
+    return litCells(grid_.cells, gpu::download<float>(context, mass_));
 }
 
 shared::LightFieldPush LightField::push() const {
@@ -73,7 +90,6 @@ shared::LightFieldPush LightField::push() const {
     push.size = cloud_.size;
     push.grid = grid_.cells;
     push.edge = grid_.edge;
-    push.scale = 1.0F / glm::vec3(grid_.cells);
     return push;
 }
 
@@ -81,11 +97,10 @@ glm::vec3 LightField::scale() const {
     return 1.0F / glm::vec3(grid_.cells * grid_.edge);
 }
 
-void LightField::recordCounts(gpu::Commands& commands, const gpu::Buffer& fluences, const Deposits& deposits) const {
+void LightField::recordCounts(gpu::Commands& commands, const gpu::Image& fluences, const Deposits& deposits) const {
     shared::LightCountsPush values{};
     values.size = cloud_.size;
     values.grid = grid_.cells;
-    values.edge = grid_.edge;
     values.depositCells = depositGrid_.cells;
     values.depositsAcross = grid_.edge / depositGrid_.edge;
     values.depositBase = deposits.base;
@@ -93,16 +108,18 @@ void LightField::recordCounts(gpu::Commands& commands, const gpu::Buffer& fluenc
     values.massScale = static_cast<float>(deposits.massScale);
     values.photon = static_cast<float>(deposits.photonPower);
     values.moment = static_cast<float>(deposits.moment);
+    values.occupied = lit_.occupied;
     commands.pass("light counts");
     commands.dispatch(countsProgram_,
                       {{"density", cloud_.density, gpu::Sampler::nearest},
                        {"collectorIndex", cloud_.collectorIndex, gpu::Sampler::nearest},
-                       {"Fluences", fluences},
+                       {"fluences", fluences},
                        {"Deposits", deposits.counts},
-                       {"cellMass", mass_, gpu::Sampler::nearest},
+                       {"cellMass", mass_},
                        {"counts", counts_},
-                       {"ownShare", ownShare_}},
-                      values, gpu::linearGroups(grid_.count(), 64));
+                       {"ownShare", ownShare_},
+                       {"LitCells", litCells_}},
+                      values, gpu::linearGroups(lit_.occupied, 64));
     commands.barrier("light counts");
 }
 
@@ -110,21 +127,21 @@ void LightField::record(gpu::Commands& commands, const glm::vec3& eyeVoxel, cons
     shared::LightFieldPush values = push();
     values.eye = eyeVoxel;
     values.voxelToWorld = glm::mat3(cloud_.toWorld.linear);
-    const glm::uvec3 groups = gpu::linearGroups(grid_.count(), 64);
+    values.occupied = lit_.occupied;
+    values.lit = static_cast<std::uint32_t>(lit_.numbers.size());
     commands.pass("light field");
     commands.dispatch(cellsProgram_,
                       {{"density", cloud_.density, gpu::Sampler::nearest},
                        {"collectorIndex", cloud_.collectorIndex, gpu::Sampler::nearest},
-                       {"radiance", radiance, gpu::Sampler::nearest},
-                       {"counts", counts_, gpu::Sampler::nearest},
-                       {"cells", cells_}},
-                      values, groups);
+                       {"radiance", radiance},
+                       {"counts", counts_},
+                       {"cells", cells_},
+                       {"LitCells", litCells_}},
+                      values, gpu::linearGroups(lit_.occupied, 64));
     commands.barrier("light cells");
     commands.dispatch(smoothProgram_,
-                      {{"cells", cells_, gpu::Sampler::linear},
-                       {"ownShare", ownShare_, gpu::Sampler::nearest},
-                       {"lightField", image_}},
-                      values, groups);
+                      {{"cells", cells_}, {"ownShare", ownShare_}, {"lightField", image_}, {"LitCells", litCells_}},
+                      values, gpu::linearGroups(lit_.numbers.size(), 64));
 }
 
 }  // namespace lumulus::draw

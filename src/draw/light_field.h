@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "cloud/cloud.h"
+#include "draw/lit_cells.h"
 #include "gpu/commands.h"
 #include "shared/draw.h"
 
@@ -22,15 +23,16 @@ struct Deposits {
 };
 
 /// In-scattered radiance towards the eye as a smooth field: the collectors' values on a grid of cells, scaled and
-/// turned by what was counted there. Collectors drawn one by one would show as blocks, and their noise as grain.
+/// turned by what was counted there. Only cells that are looked up are filled (LitCells). Collectors drawn one by one
+/// would show as blocks, and their noise as grain.
 class LightField {
   public:
     /// The cells of `deposits` are those of `grid` or finer.
     LightField(gpu::Context& context, const cloud::Cloud& cloud, const cloud::CellGrid& grid,
                const cloud::CellGrid& deposits);
 
-    /// Records what is the same for all views: the deposits against the collectors' CollectorFluence.
-    void recordCounts(gpu::Commands& commands, const gpu::Buffer& fluences, const Deposits& deposits) const;
+    /// Records what is the same for all views: the deposits against the collectors' fluences.
+    void recordCounts(gpu::Commands& commands, const gpu::Image& fluences, const Deposits& deposits) const;
     /// Records what fills the grid for an eye, from the collectors' radiance towards it.
     void record(gpu::Commands& commands, const glm::vec3& eyeVoxel, const gpu::Image& radiance) const;
 
@@ -41,12 +43,18 @@ class LightField {
     const cloud::CellGrid& grid() const { return grid_; }
 
   private:
+    LitCells findLitCells(gpu::Context& context) const;
+
     const cloud::Cloud& cloud_;
     cloud::CellGrid grid_, depositGrid_;
     gpu::Program<shared::LightFieldPush> massProgram_;
     gpu::Program<shared::LightCountsPush> countsProgram_;
     gpu::Program<shared::LightFieldPush> cellsProgram_, smoothProgram_;
-    gpu::Image mass_, counts_, ownShare_, cells_, image_;
+    gpu::Image mass_, counts_, ownShare_;
+    gpu::Image cells_;  // with a ring of empty ones, which smoothing reads
+    gpu::Image image_;
+    LitCells lit_;
+    gpu::Buffer litCells_;
 
     shared::LightFieldPush push() const;
 };

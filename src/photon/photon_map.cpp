@@ -52,6 +52,12 @@ double greatestFlux(const scene::Sun& sun, const Emission& emission, const glm::
     return maxChannel(sun.irradiance * area + emission.skyFlux);
 }
 
+/// A texel for each collector.
+gpu::Image collectorImage(gpu::Context& context, const char* name, std::uint32_t collectors) {
+    const glm::ivec2 extent(shared::COLLECTORS_WIDTH, collectors / shared::COLLECTORS_WIDTH + 1);
+    return {context, name, extent, VK_FORMAT_R32G32B32A32_SFLOAT};
+}
+
 /// Of all collectors together, where there is room for them.
 std::uint32_t coefficientsOf(const gpu::Context& context, std::uint32_t collectors, const Options& options) {
     const MapSize size{collectors,       options.bands,      options.generations,
@@ -77,8 +83,8 @@ struct PhotonMap::State {
     Program<shared::AccumulatePush> accumulateProgram;
     Program<shared::ReconstructPush> reconstructProgram;
 
-    Buffer moments, places, generation, oddGeneration, sum, saturated, fluences;
-    gpu::Image radiance;
+    Buffer moments, places, generation, oddGeneration, sum, saturated;
+    gpu::Image fluences, radiance;
     std::vector<Buffer> slots;
     gpu::Commands commands;
 
@@ -123,10 +129,8 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Cloud& preparedCl
                     Memory::device),
       sum(context, "ring sum", coefficients * sizeof(std::int64_t), Memory::device),
       saturated(context, "saturated", sizeof(std::uint32_t), Memory::host),
-      fluences(context, "collector fluences", collectors * sizeof(shared::CollectorFluence), Memory::device),
-      radiance(context, "collector radiance",
-               glm::ivec2(shared::RADIANCE_WIDTH, collectors / shared::RADIANCE_WIDTH + 1),
-               VK_FORMAT_R32G32B32A32_SFLOAT),
+      fluences(collectorImage(context, "collector fluences", collectors)),
+      radiance(collectorImage(context, "collector radiance", collectors)),
       commands(context),
       massExtinction(medium.extinction) {
     if (options.keepRing)
@@ -170,7 +174,7 @@ double PhotonMap::State::unsettledUnit() const {
 void PhotonMap::State::recordAdd(const Buffer& from, const Buffer& to, int shift) {
     const std::size_t slot = static_cast<std::size_t>((traced - 1) % options.generations);
     // Without a ring the slot is not read or written; another buffer stands in its place.
-    const Buffer& oldest = options.keepRing ? slots[slot] : fluences;
+    const Buffer& oldest = options.keepRing ? slots[slot] : places;
     commands.dispatch(
         accumulateProgram, {{"Generation", from}, {"Slot", oldest}, {"Sum", to}, {"Saturated", saturated}},
         shared::AccumulatePush{coefficients, shift, options.keepRing ? 1U : 0U}, linearGroups(coefficients, 64));
@@ -263,7 +267,7 @@ void PhotonMap::reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, 
                       {{"Sum", *light.counts},
                        {"Moments", s.moments},
                        {"Collectors", s.places},
-                       {"Fluences", s.fluences},
+                       {"fluences", s.fluences},
                        {"radiance", s.radiance}},
                       push, linearGroups(s.collectors, 64));
 }
@@ -275,7 +279,7 @@ void PhotonMap::settle() {
 const gpu::Image& PhotonMap::radiance() const {
     return state_->radiance;
 }
-const gpu::Buffer& PhotonMap::fluences() const {
+const gpu::Image& PhotonMap::fluences() const {
     return state_->fluences;
 }
 int PhotonMap::generationsInRing() const {

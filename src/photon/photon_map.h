@@ -82,9 +82,9 @@ class PhotonMap {
 
     /// Radiance of every collector towards the eye, and its light of all directions [W·m⁻²]: recorded into `commands`.
     void reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, const Light& light);
-    /// vec4 each, in rows of RADIANCE_WIDTH, and CollectorFluence.
+    /// At collectorTexel(): RGB and 1; flux and fluence of the luminance, whatever the eye.
     const gpu::Image& radiance() const;
-    const gpu::Buffer& fluences() const;
+    const gpu::Image& fluences() const;
 
     /// Where the deposits begin in the counts.
     std::uint32_t depositBase() const;

@@ -107,7 +107,6 @@ TEST(SharedLayout, Photon) {
                   transmittedDiffuse, transmittedDirect, pending, unused);
     EXPECT_PUSH(gather_comp, GatherPush, collectors, invocations, recordCapacity);
     EXPECT_PUSH(accumulate_comp, AccumulatePush, coefficients, shift, keepSlots);
-    EXPECT_LAYOUT(reconstruct_comp, CollectorFluence, flux, fluence);
     EXPECT_PUSH(reconstruct_comp, ReconstructPush, collectors, scale, eye, voxelToWorld);
 }
 
@@ -123,9 +122,9 @@ TEST(SharedLayout, Draw) {
     EXPECT_PUSH(interpolate_comp, InterpolatePush, first, count, firstBlock, blocks);
     EXPECT_LAYOUT(billboards_comp, Pixel, radiance, cloud, transmittance, alpha, depth, front);
     EXPECT_PUSH(sun_depth_comp, SunDepthPush, gridToVoxel, originVoxel, inverseSize, grid, step, firstRow);
-    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, scale, eye, voxelToWorld);
-    EXPECT_PUSH(light_counts_comp, LightCountsPush, size, grid, edge, depositCells, depositsAcross, depositBase,
-                depositScale, massScale, photon, moment);
+    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, eye, voxelToWorld, occupied, lit);
+    EXPECT_PUSH(light_counts_comp, LightCountsPush, size, grid, depositCells, depositsAcross, depositBase,
+                depositScale, massScale, photon, moment, occupied);
     EXPECT_PUSH(collector_sun_comp, CollectorSunPush, voxelToTexture, textureOffset, inverseSize, collectors);
 }
 
