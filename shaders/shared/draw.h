@@ -11,7 +11,7 @@ const int PROJECTION_ORTHOGRAPHIC = 1;
 const int PROJECTION_PANORAMA = 2;
 
 /// Edge of a tile of pixels that share a list of billboards.
-const int TILE_EDGE = 16;
+const int TILE_EDGE = 8;
 /// Depth where there is no cloud [m]: finite, so that no infinity leaves a pass.
 const float FAR_DEPTH = 1.0e10F;
 

@@ -7,7 +7,7 @@
 namespace lumulus::draw {
 
 int bandRows(const Tile& tile) {
-    constexpr int bands = 32;
+    constexpr int bands = 16;
     const int tiles = (tile.height + bands * shared::TILE_EDGE - 1) / (bands * shared::TILE_EDGE);
     const int most = (1 << 18) / (tile.width * shared::TILE_EDGE);
     return std::max(1, std::min(tiles, most)) * shared::TILE_EDGE;

@@ -7,16 +7,32 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace lumulus::draw {
 
 LayeredImage emptyFrame(const Tile& tile) {
+    constexpr float none = 0.0F, all = 1.0F;
+    const std::array<std::pair<const char*, float>, 12> values{{{"R", none},
+                                                                {"G", none},
+                                                                {"B", none},
+                                                                {"A", none},
+                                                                {"cloud.R", none},
+                                                                {"cloud.G", none},
+                                                                {"cloud.B", none},
+                                                                {"transmittance.R", all},
+                                                                {"transmittance.G", all},
+                                                                {"transmittance.B", all},
+                                                                {"depth.Z", shared::FAR_DEPTH},
+                                                                {"depth.front", shared::FAR_DEPTH}}};
     LayeredImage image;
     image.width = tile.width;
     image.height = tile.height;
-    for (const char* name : {"R", "G", "B", "A", "cloud.R", "cloud.G", "cloud.B"}) image.layer(name, 0.0F);
-    for (const char* name : {"transmittance.R", "transmittance.G", "transmittance.B"}) image.layer(name, 1.0F);
-    for (const char* name : {"depth.Z", "depth.front"}) image.layer(name, shared::FAR_DEPTH);
+    for (const auto& value : values) image.layers[value.first];
+    // the first touch of so much memory takes longer than its values
+    tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
+        image.layers.at(values[i].first).assign(image.pixels(), values[i].second);
+    });
     return image;
 }
 

@@ -14,7 +14,7 @@ namespace lumulus::draw {
 namespace {
 
 /// Tiles along the edge of a group, which is filtered first: a power of two.
-constexpr int groupEdge = 8;
+constexpr int groupEdge = 16;
 
 /// A billboard as the beams look at it, a little larger.
 struct Target {
@@ -40,12 +40,14 @@ class Beam {
         const Ray middle = camera.ray(0.5 * (lower.x + upper.x), 0.5 * (lower.y + upper.y));
         axis_ = middle.direction;
         origin_ = middle.origin - camera.position;
-        // The widest ray leaves at the border; the middles of the edges count too where the projection bends lines.
-        for (int i = 0; i <= 8; ++i)
-            for (int j = 0; j <= 8; ++j) {
-                if (i % 8 != 0 && j % 8 != 0) continue;
-                const Ray ray =
-                    camera.ray(lower.x + (upper.x - lower.x) * i / 8.0, lower.y + (upper.y - lower.y) * j / 8.0);
+        // The widest ray leaves at a corner; where the projection bends lines, anywhere along the border.
+        const int along = camera.projection == scene::Projection::panorama ? 8 : 1;
+        for (int i = 0; i <= along; ++i)
+            for (int j = 0; j <= along; ++j) {
+                if (i % along != 0 && j % along != 0) continue;
+                const glm::dvec2 share = glm::dvec2(i, j) / static_cast<double>(along);
+                const glm::dvec2 place = glm::dvec2(lower) + share * glm::dvec2(upper - lower);
+                const Ray ray = camera.ray(place.x, place.y);
                 width_ = std::max(width_, parallel_ ? glm::length(ray.origin - middle.origin) : angle(ray.direction));
             }
         width_ *= 1.0 + 1e-4;
