@@ -42,6 +42,11 @@ void Renderer::State::prepareCloud(const vdb::Volume& volume) {
     options.reducedExtinction = medium.extinction * static_cast<double>(medium.tables.turnFraction) * (1.0 - forward);
     cloud.emplace(cloud::prepare(context, volume, options));
     statistics.collectors = cloud->collectors.size();
+    if (cloud->tree.limited)
+        statistics.warnings.push_back("samples of the gradient asked for more than " +
+                                      std::to_string(scene.preparation.maxLeaves) +
+                                      " collectors: light is smeared in those that stay too large; raise "
+                                      "preparation.max_leaves or lower preparation.samples");
 }
 
 void Renderer::State::preparePhotons() {

@@ -154,6 +154,7 @@ class Builder {
                 open_.push_back(first);
                 open_.push_back(second);
             } else {
+                tree_.limited = tree_.limited || splits[i].axis >= 0;
                 done_.push_back(level[i]);
             }
         }

@@ -51,6 +51,7 @@ struct KdNode {
 struct KdTree {
     std::vector<KdNode> nodes;  ///< root first
     std::vector<shared::LeafBox> leaves;
+    bool limited = false;  ///< samples asked for more than maxLeaves
 
     /// Leaf of a voxel inside the box, by walking the tree.
     int find(const glm::ivec3& voxel) const;

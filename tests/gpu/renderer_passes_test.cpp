@@ -19,6 +19,7 @@ using test::smallScene;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::ElementsAreArray;
+using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
@@ -144,6 +145,16 @@ TEST_P(EachMode, BandsOfRows) {
     for (std::size_t i = 0; i < alpha.size(); ++i)
         (i < alpha.size() / 2 ? upper : lower) += static_cast<double>(alpha[i]);
     EXPECT_NEAR(upper, lower, 0.05 * upper);
+}
+
+TEST(Leaves, TooFewAreToldOf) {
+    scene::Scene scene = smallScene();
+    const auto warnings = [&](int most) {
+        scene.preparation.maxLeaves = most;
+        return test::render(scene).statistics.warnings;
+    };
+    EXPECT_THAT(warnings(8), Contains(HasSubstr("preparation.max_leaves")));
+    EXPECT_THAT(warnings(20000), IsEmpty());
 }
 
 class EachBandCount : public testing::TestWithParam<int> {};

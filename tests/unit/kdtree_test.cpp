@@ -139,8 +139,20 @@ TEST(KdTree, NeverHasMoreLeavesThanAsked) {
             options.density = &blocks;
             const KdTree tree = buildKdTree(samples, size, options);
             EXPECT_EQ(tree.leaves.size(), static_cast<std::size_t>(most));
+            EXPECT_TRUE(tree.limited);
             expectTiling(tree, size);
         }
+}
+
+TEST(KdTree, IsNotLimitedByRoomForItsLeaves) {
+    const ivec3 size(48, 48, 48);
+    const auto samples = randomSamples(3000, size, 3);
+    KdTreeOptions options;
+    const std::size_t leaves = buildKdTree(samples, size, options).leaves.size();
+    options.maxLeaves = static_cast<int>(leaves);
+    EXPECT_FALSE(buildKdTree(samples, size, options).limited);
+    options.maxLeaves = static_cast<int>(leaves) / 2;
+    EXPECT_TRUE(buildKdTree(samples, size, options).limited);
 }
 
 /// The smooth field that the next test samples.
