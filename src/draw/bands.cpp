@@ -7,10 +7,10 @@
 namespace lumulus::draw {
 
 int bandRows(const Tile& tile) {
-    constexpr int bands = 16;
+    constexpr int bands = 16, fewestTiles = 2;
     const int tiles = (tile.height + bands * shared::TILE_EDGE - 1) / (bands * shared::TILE_EDGE);
     const int most = (1 << 18) / (tile.width * shared::TILE_EDGE);
-    return std::max(1, std::min(tiles, most)) * shared::TILE_EDGE;
+    return std::max(fewestTiles, std::min(tiles, most)) * shared::TILE_EDGE;
 }
 
 std::vector<Band> allBands(const Tile& tile) {
@@ -21,12 +21,11 @@ std::vector<Band> allBands(const Tile& tile) {
 }
 
 std::vector<Band> sampleBands(const Tile& tile) {
-    constexpr int pixels = 40000;
-    const int tiles = (tile.height + shared::TILE_EDGE - 1) / shared::TILE_EDGE;
-    const int rows = std::clamp(pixels / (tiles * tile.width), 1, shared::TILE_EDGE);
+    constexpr int pixels = 40000, apart = 2 * shared::TILE_EDGE;
+    const int bandCount = (tile.height + apart - 1) / apart;
+    const int rows = std::clamp(pixels / (bandCount * tile.width), 1, apart);
     std::vector<Band> bands;
-    for (int row = 0; row < tile.height; row += shared::TILE_EDGE)
-        bands.push_back({row, std::min(rows, tile.height - row)});
+    for (int row = 0; row < tile.height; row += apart) bands.push_back({row, std::min(rows, tile.height - row)});
     return bands;
 }
 

@@ -18,7 +18,7 @@ int bandRows(const Tile& tile);
 /// All rows, from the top.
 std::vector<Band> allBands(const Tile& tile);
 
-/// The first rows of every tile, as many of each as make about 40,000 pixels in all, at least one.
+/// The first of every sixteen rows, as many of them as make about 40,000 pixels in all, at least one.
 std::vector<Band> sampleBands(const Tile& tile);
 
 }  // namespace lumulus::draw
