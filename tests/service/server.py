@@ -27,7 +27,7 @@ procedural = "sphere"
 resolution = 24
 extinction = 0.03
 [preparation]
-samples = 1000
+samples = 400
 max_leaves = 400
 [photon_map]
 photons = 40000
