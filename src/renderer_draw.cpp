@@ -111,32 +111,33 @@ void Renderer::State::recordPixels(const draw::FrameInputs& inputs, const shared
 /// Lattice points that are not drawn yet, what can be interpolated between them, and the rest.
 void Renderer::State::recordBlocks(const draw::FrameInputs& inputs, const shared::LatticeParams& lattice,
                                    const draw::Band& band, const Tile& pixels) {
+    draw::Interpolation& interpolation = interpolations.at(spacing);
     const auto into = [&](const gpu::Buffer& target, const gpu::Buffer& list) {
         return draw::FrameInputs{inputs.params, inputs.phase, inputs.lightField, inputs.sunDepth, target, list};
     };
     const draw::Band needed = draw::latticeRows(lattice, tile, band);
     const int first = std::max(needed.first, latticeRowsDrawn), end = needed.first + needed.rows;
     if (end > first) {
-        recordPixels(into(interpolation->points(), inputs.squares),
+        recordPixels(into(interpolation.points(), inputs.squares),
                      {shared::DRAW_LATTICE, lattice.first + glm::ivec2(0, first), {lattice.size.x, end - first}, 0});
         commands.barrier("lattice points");
         latticeRowsDrawn = end;
     }
-    interpolation->record(commands, inputs, pixels);
+    interpolation.record(commands, inputs, pixels);
     commands.barrier("blocks");
     if (draw::hasHalves(spacing)) {
-        recordPixels(into(interpolation->halves(), interpolation->blocks()), interpolation->halfPoints(pixels));
+        recordPixels(into(interpolation.halves(), interpolation.blocks()), interpolation.halfPoints(pixels));
         commands.barrier("halves");
-        interpolation->recordHalves(commands, inputs, pixels);
+        interpolation.recordHalves(commands, inputs, pixels);
         commands.barrier("cells");
     }
-    recordPixels(into(inputs.pixels, interpolation->lastList()), interpolation->squares(pixels));
+    recordPixels(into(inputs.pixels, interpolation.lastList()), interpolation.squares(pixels));
 }
 
 void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inputs,
                                const shared::LatticeParams& lattice, const draw::Band& band) {
     const Tile pixels{tile.x, tile.y + band.first, tile.width, band.rows};
-    if (lattice.spacing > 1) interpolation->clearLists();
+    if (lattice.spacing > 1) interpolations.at(spacing).clearLists();
     commands.begin();
     if (lattice.spacing > 1)
         recordBlocks(inputs, lattice, band, pixels);
@@ -175,8 +176,7 @@ void Renderer::State::drawBands(LayeredImage& image, const std::vector<draw::Ban
     params.mapped<shared::DrawParams>()[0] = drawParams();
     const shared::LatticeParams lattice = params.mapped<shared::DrawParams>()[0].lattice;
     if (spacing > 1) {
-        if (!interpolation || interpolation->spacing() != spacing) interpolation.emplace(context, spacing);
-        interpolation->prepare(lattice, draw::bandRows(tile));
+        interpolations.try_emplace(spacing, context, spacing).first->second.prepare(lattice, draw::bandRows(tile));
         latticeRowsDrawn = 0;
     }
     const draw::FrameInputs inputs{

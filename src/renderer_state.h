@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <optional>
 
 #include "cloud/cloud.h"
@@ -60,7 +61,7 @@ struct Renderer::State {
     std::optional<draw::LightField> lightField;
     std::optional<draw::Billboards> billboards;
     std::optional<draw::March> march;
-    std::optional<draw::Interpolation> interpolation;
+    std::map<int, draw::Interpolation> interpolations;  ///< by spacing: views of several clients take turns
     std::optional<fog::Fog> fog;
     scene::Sun sunlight = scene.sun;  ///< that reaches the cloud through the fog
 

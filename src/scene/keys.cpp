@@ -194,8 +194,9 @@ std::vector<Key> photonMapAndDrawKeys() {
                [](Draft& d, const Value& v) { d.scene.draw.mode = drawModes.at(v.choice); }),
         number("draw.tolerance", {0.0, 1.0}, "0.2",
                "Pixels between every fourth one are interpolated where light, transmittance and depth bend by less "
-               "than this "
-               "part from one to the next and voxels are larger than pixels; others are drawn. 0 draws all.",
+               "than this part from one to the next and voxels are larger than pixels; elsewhere every second one is "
+               "drawn, and "
+               "all where it bends still. 0 draws all.",
                [](Draft& d, const Value& v) { d.scene.draw.tolerance = v.number; }),
     };
 }
