@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -13,89 +14,87 @@ namespace lumulus::draw {
 
 namespace {
 
-/// Tiles along the edge of a group, which is filtered first: a power of two.
+/// Tiles along the edge of a group, a power of two: smaller squares are not worth a task of their own, and where the
+/// projection bends lines larger ones have no known beam.
 constexpr int groupEdge = 16;
 
-/// A billboard as the beams look at it, a little larger.
-struct Target {
-    glm::dvec3 centre{0.0}, direction{0.0};
-    double radius = 0.0;
-    double sine = 1.0, cosine = 0.0;  ///< of the half angle that it takes from the eye; 1: the eye is in it
+bool isParallel(const Camera& camera) {
+    return camera.projection == scene::Projection::orthographic;
+}
 
-    explicit Target(const shared::Billboard& billboard)
-        : centre(billboard.centre), radius(static_cast<double>(billboard.radius) * (1.0 + 1e-5)) {
-        const double distance = glm::length(centre);
-        if (distance <= radius) return;
-        direction = centre / distance;
-        sine = radius / distance;
-        cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
-    }
+/// What rays from the eye are told apart by: a point of the unit sphere, its direction; where they are parallel, one in
+/// the plane across them [m]. Single precision: sixteen bytes are looked at for each billboard and beam.
+struct Disc {
+    glm::vec3 middle{0.0F};
+    float reach = 0.0F;  ///< straight distance from the middle
 };
 
-/// All rays of a rectangle of pixels lie in it: a cone from the eye, or (orthographic) a cylinder along the view.
-class Beam {
-  public:
-    Beam(const Camera& camera, glm::ivec2 lower, glm::ivec2 upper) : parallel_(isParallel(camera)) {
-        upper = glm::min(upper, glm::ivec2(camera.width, camera.height) + (widestSpacing - 1));
-        const Ray middle = camera.ray(0.5 * (lower.x + upper.x), 0.5 * (lower.y + upper.y));
-        axis_ = middle.direction;
-        origin_ = middle.origin - camera.position;
-        // The widest ray leaves at a corner; where the projection bends lines, anywhere along the border.
-        const int along = camera.projection == scene::Projection::panorama ? 8 : 1;
-        for (int i = 0; i <= along; ++i)
-            for (int j = 0; j <= along; ++j) {
-                if (i % along != 0 && j % along != 0) continue;
-                const glm::dvec2 share = glm::dvec2(i, j) / static_cast<double>(along);
-                const glm::dvec2 place = glm::dvec2(lower) + share * glm::dvec2(upper - lower);
-                const Ray ray = camera.ray(place.x, place.y);
-                width_ = std::max(width_, parallel_ ? glm::length(ray.origin - middle.origin) : angle(ray.direction));
-            }
-        width_ *= 1.0 + 1e-4;
-        if (parallel_) return;
-        width_ += 1e-6;
-        cosWidth_ = std::cos(width_);
-        sinWidth_ = std::sin(width_);
-        widest_ = width_ >= 0.5 * std::numbers::pi;
-    }
+constexpr float everywhere = 4.0F;  // more than the sphere's diameter
+/// What rounding to single precision takes from the reach, as a part of the middle's length.
+constexpr double rounding = 1e-6;
 
-    bool mayMeet(const Target& target) const {
-        if (parallel_) {
-            const glm::dvec3 centre = target.centre - origin_;
-            const double along = glm::dot(centre, axis_);
-            return along > -target.radius && glm::length(centre - along * axis_) < target.radius + width_;
+Disc discOf(const glm::dvec3& middle, double reach) {
+    return {glm::vec3(middle), static_cast<float>(reach + rounding * glm::length(middle))};
+}
+
+/// Two of them meet only if it holds: on the sphere, sums of chords are no shorter than the chord of the sum.
+bool mayMeet(const Disc& a, const Disc& b) {
+    const glm::vec3 apart = a.middle - b.middle;
+    const float reach = a.reach + b.reach;
+    return glm::dot(apart, apart) <= reach * reach;
+}
+
+glm::dvec3 across(const Camera& camera, const glm::dvec3& place) {
+    return {glm::dot(place, camera.axes[0]), glm::dot(place, camera.axes[1]), 0.0};
+}
+
+/// What a billboard covers; a little larger.
+Disc coveredBy(const shared::Billboard& billboard, const Camera& camera) {
+    const glm::dvec3 centre(billboard.centre);
+    const double radius = static_cast<double>(billboard.radius) * (1.0 + 1e-5);
+    if (isParallel(camera)) return discOf(across(camera, centre), radius);
+    const double distance = glm::length(centre);
+    if (distance <= radius) return {{}, everywhere};
+    return discOf(centre / distance, 2.0 * std::sin(0.5 * std::asin(radius / distance)));
+}
+
+/// Holds all rays of a rectangle of pixels.
+Disc beam(const Camera& camera, glm::ivec2 lower, glm::ivec2 upper) {
+    upper = glm::min(upper, glm::ivec2(camera.width, camera.height) + (widestSpacing - 1));
+    const auto pointOf = [&](double x, double y) {
+        const Ray ray = camera.ray(x, y);
+        return isParallel(camera) ? across(camera, ray.origin - camera.position) : ray.direction;
+    };
+    const glm::dvec3 middle = pointOf(0.5 * (lower.x + upper.x), 0.5 * (lower.y + upper.y));
+    // The widest ray leaves at a corner; where the projection bends lines, anywhere along the border.
+    const int along = camera.projection == scene::Projection::panorama ? 8 : 1;
+    double reach = 0.0;
+    for (int i = 0; i <= along; ++i)
+        for (int j = 0; j <= along; ++j) {
+            if (i % along != 0 && j % along != 0) continue;
+            const glm::dvec2 share = glm::dvec2(i, j) / static_cast<double>(along);
+            const glm::dvec2 place = glm::dvec2(lower) + share * glm::dvec2(upper - lower);
+            reach = std::max(reach, glm::distance(pointOf(place.x, place.y), middle));
         }
-        // the cosine of the sum of both half angles
-        return target.sine >= 1.0 || widest_ ||
-               glm::dot(axis_, target.direction) >= cosWidth_ * target.cosine - sinWidth_ * target.sine;
-    }
+    return discOf(middle, reach * (1.0 + 1e-4));
+}
 
-  private:
-    bool parallel_;
-    glm::dvec3 axis_{0.0};
-    glm::dvec3 origin_{0.0};
-    double width_ = 0.0;  // radians, or metres
-    double cosWidth_ = 1.0, sinWidth_ = 0.0;
-    bool widest_ = false;  // half of all directions and more: the sum of two half angles may be beyond π
-
-    static bool isParallel(const Camera& camera) { return camera.projection == scene::Projection::orthographic; }
-    /// Precise also for small angles.
-    double angle(const glm::dvec3& direction) const {
-        return 2.0 * std::atan2(glm::length(direction - axis_), glm::length(direction + axis_));
-    }
-};
-
-std::vector<std::uint32_t> keep(const Beam& beam, const std::vector<Target>& targets,
+std::vector<std::uint32_t> keep(const Disc& beam, const std::vector<Disc>& targets,
                                 const std::vector<std::uint32_t>& candidates) {
-    std::vector<std::uint32_t> kept;
-    for (const std::uint32_t i : candidates)
-        if (beam.mayMeet(targets[i])) kept.push_back(i);
+    std::vector<std::uint32_t> kept(candidates.size());
+    std::size_t count = 0;
+    for (const std::uint32_t i : candidates) {
+        kept[count] = i;  // no branch: nobody could predict it
+        count += mayMeet(beam, targets[i]) ? 1 : 0;
+    }
+    kept.resize(count);
     return kept;
 }
 
 /// Fills the lists of a square of tiles, quarter by quarter: most of what one quarter meets none of the others does.
 class Divider {
   public:
-    Divider(const Camera& camera, const TileLists& tiles, const std::vector<Target>& targets,
+    Divider(const Camera& camera, const TileLists& tiles, const std::vector<Disc>& targets,
             std::vector<std::vector<std::uint32_t>>& lists)
         : camera_(camera), tiles_(tiles), targets_(targets), lists_(lists) {}
 
@@ -103,22 +102,31 @@ class Divider {
         if (first.x >= tiles_.across || first.y >= tiles_.down) return;
         const glm::ivec2 lower = first * shared::TILE_EDGE;
         std::vector<std::uint32_t> kept =
-            keep(Beam(camera_, lower, lower + edge * shared::TILE_EDGE), targets_, candidates);
+            keep(beam(camera_, lower, lower + edge * shared::TILE_EDGE), targets_, candidates);
         if (edge == 1) {
             lists_[static_cast<std::size_t>(first.y * tiles_.across + first.x)] = std::move(kept);
             return;
         }
         if (kept.empty()) return;
         const int half = edge / 2;
-        for (int i = 0; i < 4; ++i) divide(first + half * glm::ivec2(i % 2, i / 2), half, kept);
+        const auto quarter = [&](int i) { divide(first + half * glm::ivec2(i % 2, i / 2), half, kept); };
+        if (edge > groupEdge)
+            tbb::parallel_for(0, 4, quarter);
+        else
+            for (int i = 0; i < 4; ++i) quarter(i);
     }
 
   private:
     const Camera& camera_;
     const TileLists& tiles_;
-    const std::vector<Target>& targets_;
+    const std::vector<Disc>& targets_;
     std::vector<std::vector<std::uint32_t>>& lists_;
 };
+
+/// A square with all tiles in it.
+int widestEdge(const TileLists& tiles) {
+    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max({tiles.across, tiles.down, groupEdge}))));
+}
 
 }  // namespace
 
@@ -129,14 +137,16 @@ TileLists makeTileLists(const Camera& camera, const std::vector<shared::Billboar
     tiles.down = (camera.height + widestSpacing - 2) / shared::TILE_EDGE + 1;
     const auto total = static_cast<std::size_t>(tiles.across) * static_cast<std::size_t>(tiles.down);
     std::vector<std::vector<std::uint32_t>> lists(total);
-    const std::vector<Target> targets(billboards.begin(), billboards.end());
+    std::vector<Disc> targets;
+    targets.reserve(billboards.size());
+    for (const shared::Billboard& billboard : billboards) targets.push_back(coveredBy(billboard, camera));
     std::vector<std::uint32_t> all(billboards.size());
     std::iota(all.begin(), all.end(), 0U);
-    const int groupsAcross = (tiles.across + groupEdge - 1) / groupEdge;
-    const int groupsDown = (tiles.down + groupEdge - 1) / groupEdge;
+    const int edge = camera.projection == scene::Projection::panorama ? groupEdge : widestEdge(tiles);
+    const int groupsAcross = (tiles.across + edge - 1) / edge, groupsDown = (tiles.down + edge - 1) / edge;
     const Divider divider(camera, tiles, targets, lists);
     tbb::parallel_for(0, groupsAcross * groupsDown, [&](int group) {
-        divider.divide(groupEdge * glm::ivec2(group % groupsAcross, group / groupsAcross), groupEdge, all);
+        divider.divide(edge * glm::ivec2(group % groupsAcross, group / groupsAcross), edge, all);
     });
     tiles.offsets.push_back(0);
     for (const auto& list : lists) {
