@@ -26,7 +26,7 @@ const float PI = 3.14159265;
 /// counted: what holds the noise of cells that few meet. The same for the cubes of flux, which hold eight cells.
 const float PRIOR = 10.0, FLUX_PRIOR = 40.0;
 /// Part of the difference of directions that is believed: the bands above, which would follow, do not.
-const float TURNED = 0.7;
+const float TURNED = 0.85;
 /// Photons in a cell that make it count as much as the mean of its surroundings.
 const float OWN = 150.0;
 
