@@ -28,6 +28,18 @@ def layers_of(path):
         raise Failure(f"{path} is not a whole EXR file of lumulus: {error}")
 
 
+def squares_of(layers, cloud):
+    return {c: layers[c][cloud] ** 2 + 0.01 * numpy.mean(layers[c][cloud] ** 2) for c in "RGB"}
+
+
+def score(picture, first, second, cloud, squares):
+    """relMSE of a picture's layers in the pixels `cloud` against two references, and its standard error."""
+    # channels are one sample: their errors go together
+    errors = numpy.mean([(picture[c] - first[c])[cloud] * (picture[c] - second[c])[cloud] / squares[c] for c in "RGB"],
+                        axis=0)
+    return errors.mean(), errors.std() / numpy.sqrt(errors.size)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("references", nargs=2)
@@ -40,14 +52,12 @@ def main():
         if layers["R"].size != scale["R"].size:
             raise Failure(f"{path} has another size than {options.pictures[0]}")
     cloud = scale["transmittance.R"] < 0.999
-    squares = {c: scale[c][cloud] ** 2 + 0.01 * numpy.mean(scale[c][cloud] ** 2) for c in "RGB"}
+    squares = squares_of(scale, cloud)
     tracer = numpy.mean([0.5 * (first[c][cloud] - second[c][cloud]) ** 2 / squares[c] for c in "RGB"])
     print(f"path tracer: {tracer:.4f}")
     for path, picture in pictures.items():
-        # channels are one sample: their errors go together
-        errors = numpy.mean([(picture[c] - first[c])[cloud] * (picture[c] - second[c])[cloud] / squares[c]
-                             for c in "RGB"], axis=0)
-        print(f"{path}: relMSE {errors.mean():.5f} ± {errors.std() / numpy.sqrt(errors.size):.5f}")
+        relmse, deviation = score(picture, first, second, cloud, squares)
+        print(f"{path}: relMSE {relmse:.5f} ± {deviation:.5f}")
 
 
 if __name__ == "__main__":
