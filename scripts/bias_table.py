@@ -3,8 +3,9 @@
 whose last columns, the largest over the scenes, src/progressive/bias.cpp has its figures.
 
 Bands: relMSE of pictures with 1 to 6 bands against one with 8 from the same photons, so that there is no noise in it.
-The rest: pictures against two independent references (large_score.py), less the noise that their halves tell. Cells of the light field are
-smaller where there are more photons, so that the number of them matters. Run it after scripts/build.sh.
+The rest: pictures against two independent references (large_score.py), less the noise that their halves tell. Cells of the
+light field are smaller where there are more photons, so that the number of them matters. Run it after scripts/build.sh.
+Needs Debian's python3-numpy.
 """
 
 from large_score import layers_of, score, squares_of

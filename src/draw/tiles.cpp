@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "draw/lattice.h"
 
@@ -58,6 +57,12 @@ Disc coveredBy(const shared::Billboard& billboard, const Camera& camera) {
     return discOf(centre / distance, 2.0 * std::sin(0.5 * std::asin(radius / distance)));
 }
 
+/// What parallel rays have left behind, which their discs do not tell; of other rays the discs do.
+bool isBehind(const shared::Billboard& billboard, const Camera& camera) {
+    return isParallel(camera) && glm::dot(glm::dvec3(billboard.centre), camera.axes[2]) <
+                                     -(1.0 + 1e-5) * static_cast<double>(billboard.radius);
+}
+
 /// Holds all rays of a rectangle of pixels.
 Disc beam(const Camera& camera, glm::ivec2 lower, glm::ivec2 upper) {
     upper = glm::min(upper, glm::ivec2(camera.width, camera.height) + (widestSpacing - 1));
@@ -76,6 +81,8 @@ Disc beam(const Camera& camera, glm::ivec2 lower, glm::ivec2 upper) {
             const glm::dvec2 place = glm::dvec2(lower) + share * glm::dvec2(upper - lower);
             reach = std::max(reach, glm::distance(pointOf(place.x, place.y), middle));
         }
+    // Beyond a right angle, as in a small panorama, the rays inside of the border may be wider.
+    if (!isParallel(camera) && reach >= std::numbers::sqrt2) return {{}, everywhere};
     return discOf(middle, reach * (1.0 + 1e-4));
 }
 
@@ -140,8 +147,10 @@ TileLists makeTileLists(const Camera& camera, const std::vector<shared::Billboar
     std::vector<Disc> targets;
     targets.reserve(billboards.size());
     for (const shared::Billboard& billboard : billboards) targets.push_back(coveredBy(billboard, camera));
-    std::vector<std::uint32_t> all(billboards.size());
-    std::iota(all.begin(), all.end(), 0U);
+    std::vector<std::uint32_t> all;
+    all.reserve(billboards.size());
+    for (std::uint32_t i = 0; i < billboards.size(); ++i)
+        if (!isBehind(billboards[i], camera)) all.push_back(i);
     const int edge = camera.projection == scene::Projection::panorama ? groupEdge : widestEdge(tiles);
     const int groupsAcross = (tiles.across + edge - 1) / edge, groupsDown = (tiles.down + edge - 1) / edge;
     const Divider divider(camera, tiles, targets, lists);

@@ -114,6 +114,15 @@ TEST(TileLists, AreShort) {
     EXPECT_LE(tiles.lists.size(), 5 * spheres.size());
 }
 
+TEST(TileLists, LeaveOutWhatParallelRaysHaveBehindThem) {
+    const Camera camera = cameraFor({scene::Projection::orthographic, 64, 48, 40.0});
+    const dvec3 forward = camera.axes[2];
+    const std::vector<Billboard> spheres{{glm::vec3(3.0 * forward), 2.0F, 1.0F, 0.0F},
+                                         {glm::vec3(-1.0 * forward), 2.0F, 1.0F, 0.0F},
+                                         {glm::vec3(-3.0 * forward), 2.0F, 1.0F, 0.0F}};
+    EXPECT_EQ(listOf(makeTileLists(camera, spheres), 32, 24), (std::vector<std::uint32_t>{0, 1}));
+}
+
 TEST(TileLists, NothingToDraw) {
     const TileLists tiles = makeTileLists(cameraFor(views[0]), {});
     EXPECT_TRUE(tiles.lists.empty());
