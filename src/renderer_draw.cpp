@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/stopwatch.h"
+#include "draw/shown.h"
 #include "draw/sky.h"
 #include "draw/view.h"
 #include "fog/frame.h"
@@ -95,7 +96,7 @@ shared::DrawParams Renderer::State::drawParams() const {
     values.light.sunDisc = draw::lightParams(scene.sun, scene.sky, medium.albedo, medium.tables).sunDisc;
     values.field = fieldParams();
     values.lattice =
-        draw::latticeOf(camera, tile, spacing, scene.draw.tolerance, static_cast<double>(values.field.voxelLength));
+        draw::latticeOf(camera, shown, spacing, scene.draw.tolerance, static_cast<double>(values.field.voxelLength));
     values.samples = raysAcross;
     values.tilesAcross = billboards ? billboards->tilesAcross() : 0;
     return values;
@@ -115,7 +116,7 @@ void Renderer::State::recordBlocks(const draw::FrameInputs& inputs, const shared
     const auto into = [&](const gpu::Buffer& target, const gpu::Buffer& list) {
         return draw::FrameInputs{inputs.params, inputs.phase, inputs.lightField, inputs.sunDepth, target, list};
     };
-    const draw::Band needed = draw::latticeRows(lattice, tile, band);
+    const draw::Band needed = draw::latticeRows(lattice, shown, band);
     const int first = std::max(needed.first, latticeRowsDrawn), end = needed.first + needed.rows;
     if (end > first) {
         recordPixels(into(interpolation.points(), inputs.squares),
@@ -136,7 +137,7 @@ void Renderer::State::recordBlocks(const draw::FrameInputs& inputs, const shared
 
 void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inputs,
                                const shared::LatticeParams& lattice, const draw::Band& band) {
-    const Tile pixels{tile.x, tile.y + band.first, tile.width, band.rows};
+    const Tile pixels{shown.x, shown.y + band.first, shown.width, band.rows};
     if (lattice.spacing > 1) interpolations.at(spacing).clearLists();
     commands.begin();
     if (lattice.spacing > 1)
@@ -146,7 +147,8 @@ void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inp
     commands.submit();
     commands.wait();
     addTimes(commands.times());
-    draw::copyPixels(inputs.pixels.mapped<const shared::Pixel>(), image, band.first, band.rows);
+    draw::copyPixels(inputs.pixels.mapped<const shared::Pixel>(), image,
+                     {shown.x - tile.x, shown.y - tile.y + band.first, shown.width, band.rows});
 }
 
 /// The light that this view sees, by all photons or by a part of them.
@@ -167,7 +169,7 @@ void Renderer::State::drawLight(photon::Part part) {
 void Renderer::State::drawBands(LayeredImage& image, const std::vector<draw::Band>& bands, const Report& told) {
     gpu::Buffer params(context, "draw params", sizeof(shared::DrawParams), gpu::Memory::host);
     const gpu::Buffer pixels(context, "pixels",
-                             static_cast<std::uint64_t>(draw::bandRows(tile)) * static_cast<std::uint64_t>(tile.width) *
+                             static_cast<std::uint64_t>(draw::bandRows(shown)) * static_cast<std::uint64_t>(shown.width) *
                                  sizeof(shared::Pixel),
                              gpu::Memory::host);
     // Stand for what the scene does not have: the shaders never read them, but every binding must be there.
@@ -176,7 +178,7 @@ void Renderer::State::drawBands(LayeredImage& image, const std::vector<draw::Ban
     params.mapped<shared::DrawParams>()[0] = drawParams();
     const shared::LatticeParams lattice = params.mapped<shared::DrawParams>()[0].lattice;
     if (spacing > 1) {
-        interpolations.try_emplace(spacing, context, spacing).first->second.prepare(lattice, draw::bandRows(tile));
+        interpolations.try_emplace(spacing, context, spacing).first->second.prepare(lattice, draw::bandRows(shown));
         latticeRowsDrawn = 0;
     }
     const draw::FrameInputs inputs{
@@ -247,16 +249,16 @@ LayeredImage Renderer::draw(const View& view) {
     s.spacing = s.latticeSpacing();
     const Tile wanted = s.tile;
     if (s.fog) s.tile = {0, 0, view.image.width, view.image.height};  // its filter sees beyond the tile
-    LayeredImage image =
-        s.march || s.billboards ? draw::emptyFrame(s.tile) : draw::skyImage(s.camera, s.tile, s.scene.sun, s.scene.sky);
+    s.shown = s.shownPart();
+    LayeredImage image = draw::skyImage(s.camera, s.tile, s.scene.sun, s.scene.sky, s.shown);
     s.statistics.passes.clear();
     if (s.photons) {
         s.photons->settle();
         s.addTimes(s.photons->times());
     }
-    if (s.billboards || s.march) {
+    if (s.shown.height > 0) {
         s.drawLight(photon::Part::all);
-        s.drawBands(image, draw::allBands(s.tile), s.report);
+        s.drawBands(image, draw::allBands(s.shown), s.report);
     }
     if (s.fog) {
         s.applyFog(image);
@@ -264,6 +266,16 @@ LayeredImage Renderer::draw(const View& view) {
     }
     s.statistics.drawSeconds += watch.seconds();
     return image;
+}
+
+/// Voxels reach half a voxel farther than their bounds, billboards as far as the largest.
+Tile Renderer::State::shownPart() const {
+    if (!march && !billboards) return {tile.x, tile.y, 0, 0};
+    const glm::dmat3& voxel = cloud->toWorld.linear;
+    const double half = 0.5 * (glm::length(voxel[0]) + glm::length(voxel[1]) + glm::length(voxel[2]));
+    Camera unmoved = camera;  // the bounds are those of the cloud without its offset
+    unmoved.position -= offset;
+    return draw::shownPart(unmoved, bounds, billboards ? billboards->reach() : half, tile);
 }
 
 /// Of the passes that were drawn last.
@@ -280,6 +292,7 @@ Preview Renderer::preview() {
     s.showView(view);
     s.raysAcross = raysAcross(view);
     s.spacing = 1;
+    s.shown = s.tile;
     const std::vector<draw::Band> bands = draw::sampleBands(s.tile);
     for (const draw::Band& band : bands)
         for (int row = 0; row < band.rows; ++row) preview.rows.push_back(band.first + row);

@@ -45,6 +45,7 @@ struct Renderer::State {
     Bounds bounds;
     Camera camera;  // of the picture that is drawn, as is its part
     Tile tile;
+    Tile shown;  // what of the tile the cloud may be seen in: the rest is sky
     int raysAcross = 1;
     int spacing = 1;  // of the points that it is drawn at; 1: every pixel
     int latticeRowsDrawn = 0;
@@ -91,6 +92,7 @@ struct Renderer::State {
     draw::Deposits deposits(const photon::Light& light) const;
     void recordLight(photon::Part part);
     void drawLight(photon::Part part);
+    Tile shownPart() const;
     void drawBands(LayeredImage& image, const std::vector<draw::Band>& bands, const Report& told);
     void drawBand(LayeredImage& image, const draw::FrameInputs& inputs, const shared::LatticeParams& lattice,
                   const draw::Band& band);

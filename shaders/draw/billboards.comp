@@ -13,8 +13,8 @@ layout(constant_id = 3) const bool GREY = false;     // the albedo is the same f
 
 layout(binding = 0, scalar) readonly buffer Params { DrawParams storedParams; };
 layout(binding = 1, scalar) readonly buffer PhaseTable { float phaseTable[]; };
-layout(binding = 2) uniform sampler2D oneTurnH;
-layout(binding = 3) uniform sampler2D oneTurnK;
+layout(binding = 2, rgba32f) readonly uniform image2D oneTurnH;
+layout(binding = 3, rgba32f) readonly uniform image2D oneTurnK;
 layout(binding = 4) uniform sampler3D lightField;
 layout(binding = 5) uniform sampler3D sunDepth;
 layout(binding = 6, scalar) writeonly buffer Pixels { Pixel pixels[]; };
@@ -28,6 +28,7 @@ layout(push_constant, scalar) uniform Push { DrawPush push; };
 // Held in registers: a load from a buffer costs a loop over the lanes on lavapipe, for every billboard.
 DrawParams params;
 #include "lib/drawn_pixel.glsl"
+#include "lib/pixel.glsl"
 #include "lib/stretch.glsl"
 
 /// What a ray goes through of a billboard.
@@ -86,5 +87,6 @@ void main() {
         const SunView sun = sunView(params.light, direction);
         addRay(sum, throughList(tileOffsets[tile], last, sun, origin, direction), direction);
     }
-    pixels[slot] = finishedPixel(sum, params.samples * params.samples);
+    const Pixel finished = finishedPixel(sum, params.samples * params.samples);
+    STORE_PIXEL(pixels, slot, finished);
 }

@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool HALVES = false;
 
 layout(binding = 0, scalar) readonly buffer Params { DrawParams storedParams; };
-layout(binding = 1, scalar) readonly buffer Lattice { Pixel points[]; };
+layout(binding = 1, rgba32f) readonly uniform imageBuffer lattice;
 layout(binding = 2, scalar) writeonly buffer Pixels { Pixel pixels[]; };
 layout(binding = 3, scalar) buffer Blocks { uvec3 listGroups; uint listCount; uint listed[]; };
 layout(binding = 4, scalar) writeonly buffer Halves { Pixel halves[]; };
@@ -23,6 +23,16 @@ DrawParams params;
 int pointIndex(ivec2 point) {
     const ivec2 place = clamp(point - params.lattice.first, ivec2(0), params.lattice.size - 1);
     return place.y * params.lattice.size.x + place.x;
+}
+
+Pixel pointAt(ivec2 point) {
+    const int index = pointIndex(point);
+    return LOAD_PIXEL(lattice, index);
+}
+
+Probe probeAt(ivec2 point) {
+    const int index = PIXEL_TEXELS * pointIndex(point);
+    return probeOf(imageLoad(lattice, index), imageLoad(lattice, index + 1));
 }
 
 /// Second differences at point `i` of four by four, across and down together.
@@ -42,7 +52,7 @@ bool isSmooth(ivec2 block, Pixel corners[4]) {
         if (isCorner(place))
             around[i] = probeOf(corners[2 * place.y + place.x]);
         else
-            around[i] = probeOf(points[pointIndex(block + place)]);
+            around[i] = probeAt(block + place);
         brightest = max(brightest, around[i].light);
         empty += isEmpty(around[i]) ? 1 : 0;
     }
@@ -53,12 +63,16 @@ bool isSmooth(ivec2 block, Pixel corners[4]) {
     return within;
 }
 
-int halfIndex(ivec2 place) { return place.y * 2 * push.blocks.x + place.x; }
+void storeHalf(ivec2 place, Pixel value) {
+    const int index = place.y * 2 * push.blocks.x + place.x;
+    STORE_PIXEL(halves, index, value);
+}
 
 void storePixel(ivec2 pixel, Pixel value) {
     const ivec2 place = pixel - push.first;
     if (any(lessThan(place, ivec2(0))) || any(greaterThanEqual(place, push.count))) return;
-    pixels[place.y * push.count.x + place.x] = value;
+    const int index = place.y * push.count.x + place.x;
+    STORE_PIXEL(pixels, index, value);
 }
 
 void main() {
@@ -68,9 +82,9 @@ void main() {
     if (index >= push.blocks.x * push.blocks.y) return;
     const ivec2 local = ivec2(index % push.blocks.x, index / push.blocks.x);
     const ivec2 block = push.firstBlock + local;
-    const Pixel corners[4] = Pixel[4](points[pointIndex(block)], points[pointIndex(block + ivec2(1, 0))],
-                                      points[pointIndex(block + ivec2(0, 1))], points[pointIndex(block + 1)]);
-    if (HALVES) halves[halfIndex(2 * local)] = corners[0];
+    const Pixel corners[4] = Pixel[4](pointAt(block), pointAt(block + ivec2(1, 0)), pointAt(block + ivec2(0, 1)),
+                                      pointAt(block + 1));
+    if (HALVES) storeHalf(2 * local, corners[0]);
     if (!isSmooth(block, corners) || meetsSun(block * spacing, spacing)) {
         list(block, HALVES ? uint(HALVES_GROUP) : uint(DRAW_GROUP / (spacing * spacing)));
         return;
@@ -79,7 +93,6 @@ void main() {
         const ivec2 part = ivec2(i % spacing, i / spacing);
         const Pixel pixel = blend(corners, vec2(part) / float(spacing));
         storePixel(block * spacing + part, pixel);
-        if (HALVES && i != 0 && all(equal(part & 1, ivec2(0))))
-            halves[halfIndex(2 * local + part / 2)] = pixel;
+        if (HALVES && i != 0 && all(equal(part & 1, ivec2(0)))) storeHalf(2 * local + part / 2, pixel);
     }
 }

@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;  // the cells of HALVES_GROUP blocks
 
 layout(binding = 0, scalar) readonly buffer Params { DrawParams storedParams; };
-layout(binding = 1, scalar) readonly buffer Halves { Pixel halves[]; };
+layout(binding = 1, rgba32f) readonly uniform imageBuffer halves;
 layout(binding = 2, scalar) writeonly buffer Pixels { Pixel pixels[]; };
 layout(binding = 3, scalar) readonly buffer Blocks { uvec3 blockGroups; uint blockCount; uint blocks[]; };
 layout(binding = 4, scalar) buffer Cells { uvec3 listGroups; uint listCount; uint listed[]; };
@@ -21,11 +21,17 @@ int halfIndex(ivec2 point) {
     return place.y * 2 * push.blocks.x + place.x;
 }
 
+Pixel pointAt(ivec2 point) {
+    const int index = halfIndex(point);
+    return LOAD_PIXEL(halves, index);
+}
+
 /// Second difference along the three points of a block, from `start` by `aside`; counts those that see nothing.
 Probe bendAlong(ivec2 start, ivec2 aside, inout vec3 brightest, inout int empty) {
     Probe along[3];
     for (int i = 0; i < 3; ++i) {
-        along[i] = probeOf(halves[halfIndex(start + i * aside)]);
+        const int index = PIXEL_TEXELS * halfIndex(start + i * aside);
+        along[i] = probeOf(imageLoad(halves, index), imageLoad(halves, index + 1));
         brightest = max(brightest, along[i].light);
         empty += isEmpty(along[i]) ? 1 : 0;
     }
@@ -54,8 +60,8 @@ void main() {
     const ivec2 cell = 2 * squareAt(blocks[index]) + ivec2(gl_LocalInvocationIndex & 1u, gl_LocalInvocationIndex >> 1u & 1u);
     const ivec2 place = 2 * cell - push.first;
     if (any(lessThanEqual(place, ivec2(-2))) || any(greaterThanEqual(place, push.count))) return;
-    const Pixel corners[4] = Pixel[4](halves[halfIndex(cell)], halves[halfIndex(cell + ivec2(1, 0))],
-                                      halves[halfIndex(cell + ivec2(0, 1))], halves[halfIndex(cell + 1)]);
+    const Pixel corners[4] = Pixel[4](pointAt(cell), pointAt(cell + ivec2(1, 0)), pointAt(cell + ivec2(0, 1)),
+                                      pointAt(cell + 1));
     if (!isSmooth(cell) || meetsSun(2 * cell, 2)) {
         list(cell, uint(DRAW_GROUP / 4));
         return;
@@ -63,6 +69,8 @@ void main() {
     for (int i = 0; i < 4; ++i) {
         const ivec2 part = ivec2(i & 1, i >> 1);
         if (any(lessThan(place + part, ivec2(0))) || any(greaterThanEqual(place + part, push.count))) continue;
-        pixels[(place.y + part.y) * push.count.x + place.x + part.x] = blend(corners, 0.5 * vec2(part));
+        const Pixel pixel = blend(corners, 0.5 * vec2(part));
+        const int index = (place.y + part.y) * push.count.x + place.x + part.x;
+        STORE_PIXEL(pixels, index, pixel);
     }
 }

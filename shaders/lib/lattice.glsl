@@ -5,6 +5,7 @@
 
 #include "shared/draw.h"
 #include "shared/phase.h"
+#include "lib/pixel.glsl"
 #include "lib/square.glsl"
 #include "lib/view.glsl"
 
@@ -18,6 +19,9 @@ struct Probe {
 Probe probeOf(Pixel pixel) {
     return Probe(pixel.cloud, vec2(pixel.transmittance, pixel.alpha), vec2(pixel.depth, pixel.front));
 }
+
+/// From the first two texels of a pixel.
+Probe probeOf(vec4 first, vec4 second) { return Probe(first.rgb, vec2(first.a, second.x), second.yz); }
 
 bool isEmpty(Probe probe) { return probe.distances.y >= FAR_DEPTH; }
 
@@ -53,9 +57,9 @@ bool meetsSun(ivec2 corner, int edge) {
 }
 
 Pixel blend(Pixel a, Pixel b, float share) {
-    return Pixel(mix(a.radiance, b.radiance, share), mix(a.cloud, b.cloud, share),
-                 mix(a.transmittance, b.transmittance, share), mix(a.alpha, b.alpha, share),
-                 mix(a.depth, b.depth, share), mix(a.front, b.front, share));
+    return Pixel(mix(a.cloud, b.cloud, share), mix(a.transmittance, b.transmittance, share),
+                 mix(a.alpha, b.alpha, share), mix(a.depth, b.depth, share), mix(a.front, b.front, share),
+                 mix(a.radiance, b.radiance, share), vec2(0.0));
 }
 
 /// Lists a square of pixels by its corner in units of its edge; `each` of them are drawn by a workgroup.

@@ -58,7 +58,7 @@ void addStretch(inout RayLight ray, SunView sun, float near, float far, float th
     const float weight = exp(-ray.depth) * (1.0 - exp(-thickness));
     ray.distance += weight * 0.5 * (near + far);
     ray.weight += weight;
-    ray.front = min(ray.front, near);
+    if (thickness > 0.0) ray.front = min(ray.front, near);
     ray.depth += thickness;
 }
 
@@ -69,7 +69,7 @@ struct PixelSum {
 };
 
 PixelSum emptyPixel() {
-    return PixelSum(Pixel(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, FAR_DEPTH), 0.0);
+    return PixelSum(Pixel(vec3(0.0), 0.0, 0.0, 0.0, FAR_DEPTH, vec3(0.0), vec2(0.0)), 0.0);
 }
 
 void addRay(inout PixelSum sum, RayLight ray, vec3 direction) {

@@ -12,35 +12,44 @@ vec3 decayed(vec3 x) { return GREY ? vec3(exp(x.x)) : exp(x); }
 
 /// What of the sun's light depends on the view direction alone.
 struct SunView {
-    float phase;  // p(θ)
-    float angle;  // texture coordinate in the one-turn tables
+    float phase;      // p(θ)
+    TableCell angle;  // in the one-turn tables
 };
-
-/// Texture coordinate of an axis in [0,1] whose ends are the middles of the first and the last texel.
-float texelMiddle(float axis, int size) { return (axis * float(size - 1) + 0.5) / float(size); }
 
 SunView sunView(LightParams light, vec3 viewDirection) {
     const ScatterAngle angle = angleBetween(light.sunTravel, -viewDirection);
     const float axis = angleToAxis(angle, light.angleScale);
     const TableCell cell = tableCell(axis, phaseTableSize);
     return SunView(exp(mix(phaseTable[cell.base], phaseTable[cell.base + 1], cell.fraction)),
-                   texelMiddle(axis, oneTurnAngleCount));
+                   tableCell(axis, oneTurnAngleCount));
 }
 
-/// Where a depth lies in the one-turn tables.
-vec2 oneTurnPlace(SunView sun, LightParams light, float tau) {
-    return vec2(texelMiddle(tauToAxis(tau, light.tauMaximum), oneTurnTauCount), sun.angle);
+/// Between the corners that a texel of a one-turn table holds.
+float betweenCorners(vec4 corners, vec2 place) {
+    const vec2 atDepth = mix(corners.xz, corners.yw, place.x);
+    return mix(atDepth.x, atDepth.y, place.y);
 }
+
+/// A look-up at an optical depth. An image cannot be handed to a function.
+#define ONE_TURN_AT(table, cell, sun)                                                                              \
+    (GREY ? vec3(betweenCorners(imageLoad(table, ivec2(cell.base, sun.angle.base)),                                \
+                                vec2(cell.fraction, sun.angle.fraction)))                                          \
+          : vec3(betweenCorners(imageLoad(table, ivec2(3 * cell.base, sun.angle.base)),                            \
+                                vec2(cell.fraction, sun.angle.fraction)),                                          \
+                 betweenCorners(imageLoad(table, ivec2(3 * cell.base + 1, sun.angle.base)),                        \
+                                vec2(cell.fraction, sun.angle.fraction)),                                          \
+                 betweenCorners(imageLoad(table, ivec2(3 * cell.base + 2, sun.angle.base)),                        \
+                                vec2(cell.fraction, sun.angle.fraction))))
 
 /// H(τs,θ) and K(τ,θ) without their decay e^−κτ.
 vec3 oneTurnBefore(SunView sun, LightParams light, float tau) {
-    const vec4 held = textureLod(oneTurnH, oneTurnPlace(sun, light, tau), 0.0);
-    return GREY ? held.rrr : held.rgb;
+    const TableCell depth = tableCell(tauToAxis(tau, light.tauMaximum), oneTurnTauCount);
+    return ONE_TURN_AT(oneTurnH, depth, sun);
 }
 
 vec3 oneTurnAfter(SunView sun, LightParams light, float tau) {
-    const vec4 held = textureLod(oneTurnK, oneTurnPlace(sun, light, tau), 0.0);
-    return GREY ? held.rrr : held.rgb;
+    const TableCell depth = tableCell(tauToAxis(tau, light.tauMaximum), oneTurnTauCount);
+    return ONE_TURN_AT(oneTurnK, depth, sun);
 }
 
 /// Radiance that a stretch of optical thickness `thickness`, seen through `tauView` and lit through `tauSun`, sends to

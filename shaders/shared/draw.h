@@ -108,15 +108,17 @@ struct Billboard {
     float sunDepth;    // optical depth to the sun of the leaf as a whole
 };
 
-/// What a drawing pass leaves of one pixel.
+/// What a drawing pass leaves of one pixel: three texels of four floats for whoever loads it (shaders/lib/pixel.glsl).
 struct Pixel {
-    vec3 radiance;  // with the sky
-    vec3 cloud;     // without
+    vec3 cloud;  // without the sky
     float transmittance;
     float alpha;
     float depth;
     float front;
+    vec3 radiance;  // with the sky
+    vec2 unused;    // never stored
 };
+const int PIXEL_TEXELS = 3;
 
 /// Grid of optical depth towards the sun, its third axis along the light.
 struct SunDepthPush {
@@ -170,7 +172,7 @@ static_assert(sizeof(LatticeParams) == 28 && offsetof(LatticeParams, depthTolera
 static_assert(sizeof(DrawParams) == 332 && offsetof(DrawParams, samples) == 328);
 static_assert(sizeof(DrawPush) == 24 && offsetof(DrawPush, edge) == 20);
 static_assert(sizeof(InterpolatePush) == 32 && offsetof(InterpolatePush, blocks) == 24);
-static_assert(sizeof(Pixel) == 40 && offsetof(Pixel, front) == 36);
+static_assert(sizeof(Pixel) == 16 * PIXEL_TEXELS && offsetof(Pixel, unused) == 40);
 static_assert(sizeof(SunDepthPush) == 80 && offsetof(SunDepthPush, firstRow) == 76);
 static_assert(sizeof(CollectorSunPush) == 64 && offsetof(CollectorSunPush, collectors) == 60);
 static_assert(sizeof(LightFieldPush) == 84 && offsetof(LightFieldPush, lit) == 80);

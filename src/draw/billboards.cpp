@@ -22,6 +22,10 @@ double filledVoxels(const cloud::Collector& collector) {
     return std::max(collector.occupiedVoxels(), static_cast<double>(collector.mass));
 }
 
+double radiusOf(const cloud::Cloud& cloud, const cloud::Collector& collector) {
+    return overlap * std::cbrt(filledVoxels(collector) * cloud.voxelVolume * 3.0 / (4.0 * std::numbers::pi));
+}
+
 /// Two texels each: the sphere; extinction and the sun's depth.
 std::vector<glm::vec4> billboardTexels(const std::vector<shared::Billboard>& billboards) {
     std::vector<glm::vec4> texels;
@@ -58,8 +62,7 @@ std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, double 
     for (std::size_t i = 0; i < cloud.collectors.size(); ++i) {
         const cloud::Collector& collector = cloud.collectors[i];
         const glm::dvec3 centre = cloud.toWorld.point(glm::dvec3(collector.centre)) - camera.position;
-        const double radius =
-            overlap * std::cbrt(filledVoxels(collector) * cloud.voxelVolume * 3.0 / (4.0 * std::numbers::pi));
+        const double radius = radiusOf(cloud, collector);
         const double mass = extinction * static_cast<double>(collector.mass) * cloud.voxelVolume;
         const double order = parallel ? glm::dot(centre, camera.axes[2]) : glm::dot(centre, centre);
         placed.push_back({order,
@@ -81,7 +84,10 @@ Billboards::Billboards(gpu::Context& context, const cloud::Cloud& cloud, const D
     : context_(context),
       cloud_(cloud),
       program_(context, "billboards", spirv::billboards_comp, features.constants()),
-      offsets_(context, "tile offsets", 0, gpu::Memory::device) {}
+      offsets_(context, "tile offsets", 0, gpu::Memory::device) {
+    for (const cloud::Collector& collector : cloud.collectors)
+        reach_ = std::max(reach_, radiusOf(cloud, collector));
+}
 
 void Billboards::prepare(const Camera& camera, double extinction, std::span<const float> sunDepths) {
     const std::vector<shared::Billboard> billboards = makeBillboards(cloud_, extinction, camera, sunDepths);

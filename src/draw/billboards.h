@@ -29,12 +29,15 @@ class Billboards {
     /// Records one pass over some pixels; the fastest where they begin at multiples of TILE_EDGE.
     void record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawPush& push) const;
 
+    /// Radius of the largest [m].
+    double reach() const { return reach_; }
     int tilesAcross() const { return tiles_.across; }
 
   private:
     gpu::Context& context_;
     const cloud::Cloud& cloud_;
     DrawProgram program_;
+    double reach_ = 0.0;
     TileLists tiles_;
     std::optional<gpu::Image> billboards_, lists_;  ///< of the view that is prepared
     gpu::Buffer offsets_;

@@ -50,14 +50,20 @@ struct FrameInputs {
     std::vector<gpu::Binding> bindings() const {
         return {{"Params", params},
                 {"PhaseTable", phase.phase},
-                {"oneTurnH", phase.before, gpu::Sampler::linearClamp},
-                {"oneTurnK", phase.after, gpu::Sampler::linearClamp},
+                {"oneTurnH", phase.before},
+                {"oneTurnK", phase.after},
                 {"lightField", lightField, gpu::Sampler::linearClamp},
                 {"sunDepth", sunDepth, gpu::Sampler::linearClamp},
                 {"Pixels", pixels},
                 {"Blocks", squares}};
     }
 };
+
+/// Room for so many pixels, as structs and as texels.
+inline gpu::Buffer pixelBuffer(gpu::Context& context, const char* name, std::uint64_t count) {
+    return {context, name, count * static_cast<std::uint64_t>(shared::PIXEL_TEXELS), VK_FORMAT_R32G32B32A32_SFLOAT,
+            gpu::Memory::device};
+}
 
 using DrawProgram = gpu::Program<shared::DrawPush>;
 

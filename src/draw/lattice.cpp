@@ -77,8 +77,8 @@ Interpolation::Interpolation(gpu::Context& context, int spacing)
     : context_(context),
       spacing_(spacing),
       program_(context, "interpolate", spirv::interpolate_comp, {gpu::SpecConstant::of(0, hasHalves(spacing))}),
-      points_(context, "lattice", 0, gpu::Memory::device),
-      halves_(context, "halves", 0, gpu::Memory::device),
+      points_(pixelBuffer(context, "lattice", 0)),
+      halves_(pixelBuffer(context, "halves", 0)),
       blocks_(squareList(context, "blocks", 0)),
       cells_(squareList(context, "cells", 0)) {
     if (hasHalves(spacing)) halvesProgram_.emplace(context, "interpolate_halves", spirv::interpolate_halves_comp);
@@ -87,12 +87,13 @@ Interpolation::Interpolation(gpu::Context& context, int spacing)
 void Interpolation::prepare(const shared::LatticeParams& lattice, int bandRows) {
     const std::uint64_t inBand =
         static_cast<std::uint64_t>(lattice.size.x) * static_cast<std::uint64_t>(bandRows / lattice.spacing + 2);
-    if (lattice.size != lattice_.size || inBand != blocksInBand_) {
+    if (points_.bytes() < countOf(lattice) * sizeof(shared::Pixel))
+        points_ = pixelBuffer(context_, "lattice", countOf(lattice));
+    if (blocksInBand_ < inBand) {
         blocksInBand_ = inBand;
-        points_ = gpu::Buffer(context_, "lattice", countOf(lattice) * sizeof(shared::Pixel), gpu::Memory::device);
         blocks_ = squareList(context_, "blocks", inBand);
         if (hasHalves(spacing_)) {
-            halves_ = gpu::Buffer(context_, "halves", 4 * inBand * sizeof(shared::Pixel), gpu::Memory::device);
+            halves_ = pixelBuffer(context_, "halves", 4 * inBand);
             cells_ = squareList(context_, "cells", 4 * inBand);
         }
     }
@@ -131,7 +132,7 @@ void Interpolation::record(gpu::Commands& commands, const FrameInputs& inputs, c
     commands.dispatch(
         program_,
         {{"Params", inputs.params},
-         {"Lattice", points_},
+         {"lattice", points_},
          {"Pixels", inputs.pixels},
          {"Blocks", blocks_},
          {"Halves", halves_}},
@@ -144,7 +145,7 @@ void Interpolation::recordHalves(gpu::Commands& commands, const FrameInputs& inp
     commands.pass("interpolate halves");
     commands.dispatchIndirect(*halvesProgram_,
                               {{"Params", inputs.params},
-                               {"Halves", halves_},
+                               {"halves", halves_},
                                {"Pixels", inputs.pixels},
                                {"Blocks", blocks_},
                                {"Cells", cells_}},

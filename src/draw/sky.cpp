@@ -11,11 +11,33 @@
 
 namespace lumulus::draw {
 
-LayeredImage emptyFrame(const Tile& tile) {
+namespace {
+
+/// Of the disc, in the middle of the pixel.
+bool seesSun(const Camera& camera, double px, double py, const glm::dvec3& directionTo, double radius) {
+    const glm::dvec3 direction = camera.ray(px, py).direction;
+    return 2.0 * std::atan2(glm::length(direction - directionTo), glm::length(direction + directionTo)) <= radius;
+}
+
+/// Whether a disc may be seen at all: by the angles between the middle of a perspective view and its corners.
+bool maySeeSun(const Camera& camera, const glm::dvec3& directionTo, double radius) {
+    if (camera.projection != scene::Projection::perspective) return true;
+    const glm::dvec3 middle = camera.ray(0.5 * camera.width, 0.5 * camera.height).direction;
+    double least = 1.0;
+    for (int i = 0; i < 4; ++i)
+        least = std::min(least,
+                         glm::dot(middle, camera.ray(i & 1 ? camera.width : 0, i & 2 ? camera.height : 0).direction));
+    return std::acos(std::clamp(glm::dot(middle, directionTo), -1.0, 1.0)) <= std::acos(least) + radius;
+}
+
+}  // namespace
+
+LayeredImage emptyFrame(const Tile& tile, const glm::dvec3& radiance) {
     constexpr float none = 0.0F, all = 1.0F;
-    const std::array<std::pair<const char*, float>, 12> values{{{"R", none},
-                                                                {"G", none},
-                                                                {"B", none},
+    const glm::vec3 background(radiance);
+    const std::array<std::pair<const char*, float>, 12> values{{{"R", background.r},
+                                                                {"G", background.g},
+                                                                {"B", background.b},
                                                                 {"A", none},
                                                                 {"cloud.R", none},
                                                                 {"cloud.G", none},
@@ -36,45 +58,43 @@ LayeredImage emptyFrame(const Tile& tile) {
     return image;
 }
 
-LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& sun, const scene::Sky& sky) {
-    LayeredImage image = emptyFrame(tile);
-    auto& red = image.layer("R");
-    auto& green = image.layer("G");
-    auto& blue = image.layer("B");
+LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& sun, const scene::Sky& sky,
+                      const Tile& without) {
+    LayeredImage image = emptyFrame(tile, sky.radiance);
     const double radius = 0.5 * sun.angularDiameter * std::numbers::pi / 180.0;
     const double disc = std::numbers::pi * std::pow(std::sin(radius), 2);
-    tbb::parallel_for(0, tile.height, [&](int y) {
-        for (int x = 0; x < tile.width; ++x) {
-            glm::dvec3 radiance = sky.radiance;
-            const glm::dvec3 direction = camera.ray(tile.x + x + 0.5, tile.y + y + 0.5).direction;
-            const double angle =
-                2.0 * std::atan2(glm::length(direction - sun.directionTo), glm::length(direction + sun.directionTo));
-            if (disc > 0.0 && angle <= radius) radiance += sun.irradiance / disc;
-            const std::size_t i =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(x);
-            red[i] = static_cast<float>(radiance.x);
-            green[i] = static_cast<float>(radiance.y);
-            blue[i] = static_cast<float>(radiance.z);
+    if (!(disc > 0.0) || !maySeeSun(camera, sun.directionTo, radius)) return image;
+    const std::array<std::vector<float>*, 3> colours{&image.layer("R"), &image.layer("G"), &image.layer("B")};
+    const glm::vec3 bright(sky.radiance + sun.irradiance / disc);
+    tbb::parallel_for(tile.y, tile.y + tile.height, [&](int y) {
+        const bool crosses = y >= without.y && y < without.y + without.height;
+        for (int x = tile.x; x < tile.x + tile.width; ++x) {
+            if (crosses && x == without.x) x += without.width;
+            if (x >= tile.x + tile.width || !seesSun(camera, x + 0.5, y + 0.5, sun.directionTo, radius)) continue;
+            const auto i = static_cast<std::size_t>(y - tile.y) * static_cast<std::size_t>(tile.width) +
+                           static_cast<std::size_t>(x - tile.x);
+            for (int c = 0; c < 3; ++c) (*colours[static_cast<std::size_t>(c)])[i] = bright[c];
         }
     });
     return image;
 }
 
-void copyPixels(std::span<const shared::Pixel> pixels, LayeredImage& image, int firstRow, int rows) {
-    const auto width = static_cast<std::size_t>(image.width);
+void copyPixels(std::span<const shared::Pixel> pixels, LayeredImage& image, const Tile& place) {
+    const auto across = static_cast<std::size_t>(image.width), width = static_cast<std::size_t>(place.width);
     // a pixel's floats in the order of its members; what is seen through is the same for all colours
     const std::array<const char*, 10> names{
-        "R", "G", "B", "cloud.R", "cloud.G", "cloud.B", "transmittance.R", "A", "depth.Z", "depth.front"};
-    constexpr std::size_t transmittance = 6;
-    static_assert(sizeof(shared::Pixel) == std::tuple_size_v<decltype(names)> * sizeof(float));
+        "cloud.R", "cloud.G", "cloud.B", "transmittance.R", "A", "depth.Z", "depth.front", "R", "G", "B"};
+    constexpr std::size_t transmittance = 3;
+    static_assert(offsetof(shared::Pixel, unused) == std::tuple_size_v<decltype(names)> * sizeof(float));
     std::array<float*, names.size()> layers{};
     for (std::size_t i = 0; i < names.size(); ++i) layers[i] = image.layer(names[i]).data();
     std::array<float*, 2> transmittances{image.layer("transmittance.G").data(), image.layer("transmittance.B").data()};
-    tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(rows), [&](std::size_t row) {
-        const std::size_t to = (static_cast<std::size_t>(firstRow) + row) * width;
+    tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(place.height), [&](std::size_t row) {
+        const std::size_t to = (static_cast<std::size_t>(place.y) + row) * across + static_cast<std::size_t>(place.x);
         for (std::size_t x = 0; x < width; ++x) {
-            const auto values = std::bit_cast<std::array<float, names.size()>>(pixels[row * width + x]);
-            for (std::size_t i = 0; i < values.size(); ++i) layers[i][to + x] = values[i];
+            const auto values =
+                std::bit_cast<std::array<float, sizeof(shared::Pixel) / sizeof(float)>>(pixels[row * width + x]);
+            for (std::size_t i = 0; i < names.size(); ++i) layers[i][to + x] = values[i];
         }
         for (float* copy : transmittances) std::copy_n(layers[transmittance] + to, width, copy + to);
     });

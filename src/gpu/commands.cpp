@@ -26,8 +26,10 @@ const Binding& findBinding(const ProgramBase& program, const std::vector<Binding
     const auto found = std::ranges::find(bindings, info.name, &Binding::name);
     if (found == bindings.end()) fail(program, info.name, "is missing");
     const bool isBuffer = found->buffer != nullptr;
-    if (isBuffer != (info.kind == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER))
+    if (isBuffer != info.isBuffer())
         fail(program, info.name, isBuffer ? "is an image in the shader" : "is a buffer in the shader");
+    if (isBuffer && info.kind == VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER && found->buffer->texels() == VK_NULL_HANDLE)
+        fail(program, info.name, "needs a buffer of texels");
     if (isBuffer) return *found;
     const bool sampled = info.kind == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     if (found->image->dimensions() != info.dimensions || sampled != (found->sampler != Sampler::none))
@@ -107,17 +109,20 @@ void Commands::record(const ProgramBase& program, const std::vector<Binding>& bi
                                            offset, arguments->name(), arguments->bytes()));
     std::vector<VkDescriptorBufferInfo> buffers(program.bindings().size());
     std::vector<VkDescriptorImageInfo> images(program.bindings().size());
+    std::vector<VkBufferView> texels(program.bindings().size());
     std::vector<VkWriteDescriptorSet> writes;
     std::vector<Access> accesses;
     for (std::size_t i = 0; i < images.size(); ++i) {
         const BindingInfo& info = program.bindings()[i];
         const auto& [name, buffer, image, sampler] = findBinding(program, bindings, info);
-        if (buffer != nullptr)
+        if (buffer != nullptr) {
             buffers[i] = {buffer->handle(), 0, VK_WHOLE_SIZE};
-        else
+            texels[i] = buffer->texels();
+        } else {
             images[i] = {context_->sampler(sampler), image->view(), VK_IMAGE_LAYOUT_GENERAL};
+        }
         writes.push_back({VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, VK_NULL_HANDLE, info.binding, 0, 1,
-                          info.kind, &images[i], &buffers[i]});
+                          info.kind, &images[i], &buffers[i], &texels[i]});
         const Resource& resource = buffer != nullptr ? static_cast<const Resource&>(*buffer) : *image;
         accesses.push_back({resource.id(), resource.name(), info.reads, info.writes});
     }

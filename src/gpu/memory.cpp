@@ -101,8 +101,9 @@ Buffer::Buffer(Context& context, std::string name, std::uint64_t bytes, Memory w
     const VolkDeviceTable& api = context.api();
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = (bytes_ + 3) / 4 * 4;  // Commands::fill() sets whole words
-    info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
+                 VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                 VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     buffer_ = context.create(api.vkCreateBuffer, api.vkDestroyBuffer, info, VK_OBJECT_TYPE_BUFFER, name_, bytes_);
     VkMemoryRequirements needs{};
     api.vkGetBufferMemoryRequirements(context.handle(), handle(), &needs);
@@ -111,6 +112,18 @@ Buffer::Buffer(Context& context, std::string name, std::uint64_t bytes, Memory w
     if (where == Memory::host)
         checkMemory(api.vkMapMemory(context.handle(), allocation_.get(), 0, VK_WHOLE_SIZE, 0, &mapped_), "vkMapMemory",
                     name_, bytes_);
+}
+
+Buffer::Buffer(Context& context, std::string name, std::uint64_t count, VkFormat texel, Memory where)
+    : Buffer(context, std::move(name), std::max<std::uint64_t>(count, 1) * texelBytes(texel), where) {
+    const std::uint64_t limit = context.limits().maxTexelBufferElements;
+    if (count > limit)
+        throw Error(fmt::format("a buffer of {} texels is above the device's limit of {}", count, limit), name_,
+                    "use a smaller picture or another device");
+    const VkBufferViewCreateInfo info{
+        VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO, nullptr, 0, handle(), texel, 0, VK_WHOLE_SIZE};
+    texels_ = context.create(context.api().vkCreateBufferView, context.api().vkDestroyBufferView, info,
+                             VK_OBJECT_TYPE_BUFFER_VIEW, name_);
 }
 
 Image::Image(Context& context, std::string name, glm::ivec2 extent, VkFormat format)

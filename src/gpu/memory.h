@@ -53,8 +53,13 @@ class Buffer : public Resource {
     /// A size of 0 is made 16 bytes. The contents are undefined.
     /// Errors: Error where `bytes` is above the device's maxStorageBufferRange or memory runs out.
     Buffer(Context& context, std::string name, std::uint64_t bytes, Memory where);
+    /// As above, of `count` texels, which shaders see as an imageBuffer (and may see as a plain buffer). On lavapipe
+    /// its loads and stores are by vectors, those of a plain buffer by lanes. Errors: as above, and Error where `count`
+    /// is above the device's maxTexelBufferElements.
+    Buffer(Context& context, std::string name, std::uint64_t count, VkFormat texel, Memory where);
 
     VkBuffer handle() const { return buffer_.get(); }
+    VkBufferView texels() const { return texels_.get(); }  ///< none for a plain buffer
 
     /// The whole values of type T that fit. Only for Memory::host (std::logic_error otherwise).
     template <class T>
@@ -65,6 +70,7 @@ class Buffer : public Resource {
 
   private:
     Owned<VkBuffer> buffer_;
+    Owned<VkBufferView> texels_;
     void* mapped_ = nullptr;
 };
 

@@ -25,7 +25,7 @@ BindingInfo readBinding(const Compiler& compiler, const spirv_cross::Resource& r
             info.name + " is not in descriptor set 0");
     const spirv_cross::SPIRType& type = compiler.get_type(resource.type_id);
     require(type.array.empty(), info.name + " is an array of resources");
-    if (kind == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) return info;
+    if (info.isBuffer()) return info;
     require(type.image.dim == spv::Dim2D || type.image.dim == spv::Dim3D,
             info.name + " is neither a 2D nor a 3D image");
     info.dimensions = type.image.dim == spv::Dim3D ? 3 : 2;
@@ -42,9 +42,12 @@ Reflection read(const Compiler& compiler) {
     for (const auto& buffer : resources.storage_buffers)
         bindings.push_back(readBinding(compiler, buffer, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                        compiler.get_buffer_block_flags(buffer.id)));
-    for (const auto& image : resources.storage_images)
-        bindings.push_back(
-            readBinding(compiler, image, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, compiler.get_decoration_bitset(image.id)));
+    for (const auto& image : resources.storage_images) {
+        const bool texels = compiler.get_type(image.type_id).image.dim == spv::DimBuffer;
+        bindings.push_back(readBinding(
+            compiler, image, texels ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+            compiler.get_decoration_bitset(image.id)));
+    }
     for (const auto& image : resources.sampled_images)
         bindings.push_back(readBinding(compiler, image, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, {}));
     std::ranges::sort(bindings, {}, &BindingInfo::binding);

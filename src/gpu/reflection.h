@@ -12,10 +12,15 @@ namespace lumulus::gpu {
 struct BindingInfo {
     std::string name;  ///< the instance name where the GLSL gives one, else the name of the block
     std::uint32_t binding = 0;
-    VkDescriptorType kind = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;  ///< or STORAGE_IMAGE or COMBINED_IMAGE_SAMPLER
+    VkDescriptorType kind = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;  ///< or another that fits isBuffer() or an image
     int dimensions = 0;                                         ///< of an image: 2 or 3
     bool reads = true;                                          ///< false for `writeonly`
     bool writes = false;                                        ///< false for `readonly` and for sampled images
+
+    /// Of bytes, or of texels (imageBuffer); else a storage image or a sampled one.
+    bool isBuffer() const {
+        return kind == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER || kind == VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+    }
 };
 
 /// What a compute shader says of itself.

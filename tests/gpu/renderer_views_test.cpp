@@ -219,6 +219,30 @@ TEST_P(Views, OffsetMovesTheCloud) {
     EXPECT_LT(relativeDifference(renderer->draw(view), still, "G"), 1e-3);
 }
 
+/// Nothing is drawn for a cloud that is out of view, and what is drawn of one at the edge goes on in the sky beside it.
+TEST_P(Views, NothingIsDrawnWhereNoCloudIs) {
+    const auto renderer = ringRenderer(scene, 2);
+    View view = renderer->sceneView();
+    view.camera.position = dvec3(0.0, 100.0, 600.0);
+    view.camera.target = dvec3(0.0, 100.0, 1200.0);
+    const LayeredImage away = renderer->draw(view);
+    EXPECT_EQ(sumOf(away, "A"), 0.0);
+    EXPECT_NEAR(sumOf(away, "B"), scene.sky.radiance.b * static_cast<double>(away.pixels()), 1e-3);
+    for (const PassTime& pass : renderer->statistics().passes) {
+        EXPECT_NE(pass.name, "march");
+        EXPECT_NE(pass.name, "billboards");
+        EXPECT_NE(pass.name, "light field");
+    }
+    view.camera.target = dvec3(250.0, 100.0, 0.0);
+    const LayeredImage beside = renderer->draw(view);
+    EXPECT_GT(sumOf(beside, "A"), 10.0);
+    const float sky = away.layers.at("B").front();
+    for (std::size_t i = 0; i < beside.pixels(); ++i) {
+        if (beside.layers.at("A")[i] > 0.0F) continue;
+        ASSERT_FLOAT_EQ(beside.layers.at("B")[i], sky) << i;
+    }
+}
+
 /// Two cameras of a dome, each 90° wide, that look square to each other: their pictures go on over the common edge as
 /// each does inside. The step over it is at most half as large again as the steps beside it, over which the cloud
 /// changes as much.
