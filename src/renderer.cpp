@@ -128,7 +128,6 @@ void Renderer::State::prepareDrawing() {
     phase.emplace(context, medium.tables, features.grey);
     if (scene.draw.mode == scene::DrawMode::billboards) {
         billboards.emplace(context, *cloud, features);
-        if (features.sun) collectorSun.emplace(context, *cloud);
     } else {
         march.emplace(context, *cloud, features);
     }

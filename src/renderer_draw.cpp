@@ -161,9 +161,7 @@ void Renderer::State::drawLight(photon::Part part) {
         commands.wait();
         addTimes(commands.times());
     }
-    if (billboards)
-        billboards->prepare(camera, medium.extinction,
-                            collectorSun ? collectorSun->values() : std::span<const float>());
+    if (billboards) billboards->prepare(camera);
 }
 
 void Renderer::State::drawBands(LayeredImage& image, const std::vector<draw::Band>& bands, const Report& told) {

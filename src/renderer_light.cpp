@@ -31,10 +31,6 @@ void Renderer::State::lightChanged() {
 
 /// Of what was recorded before.
 void Renderer::State::showSunDepth(int reduction) {
-    if (collectorSun) {
-        commands.barrier("sun depths");
-        collectorSun->record(commands, *sunDepth);
-    }
     sunDrawn = reduction;
     sharpening = false;
 }

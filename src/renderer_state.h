@@ -9,7 +9,6 @@
 #include "draw/bands.h"
 #include "draw/billboards.h"
 #include "draw/camera.h"
-#include "draw/collector_sun.h"
 #include "draw/lattice.h"
 #include "draw/light_field.h"
 #include "draw/march.h"
@@ -57,7 +56,6 @@ struct Renderer::State {
     cloud::CellGrid depositGrid;
     std::optional<photon::PhotonMap> photons;
     std::optional<draw::SunDepth> sunDepth;
-    std::optional<draw::CollectorSun> collectorSun;
     std::optional<draw::PhaseTables> phase;
     std::optional<draw::LightField> lightField;
     std::optional<draw::Billboards> billboards;

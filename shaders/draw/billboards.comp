@@ -1,8 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Billboards (Elek 2011, 5.9) as spheres that face the eye point: each pixel goes through its tile's list front to back,
-// which is the same blending as back to front, and stops where nothing behind can be seen.
+// which is the same blending as back to front, and stops where nothing behind can be seen. What a ray goes through of a
+// sphere has the cloud's own density in the middle of it: a sphere that stands out of the cloud is not seen there.
 #include "shared/draw.h"
+#include "lib/density.glsl"
 #include "lib/view.glsl"
 
 layout(local_size_x = 16, local_size_y = 4) in;
@@ -23,6 +25,7 @@ layout(binding = 7, rgba32f) readonly uniform image2D billboards;  // two texels
 layout(binding = 8, scalar) readonly buffer TileOffsets { uint tileOffsets[]; };
 layout(binding = 9, r32ui) readonly uniform uimage2D tileLists;
 layout(binding = 10, scalar) readonly buffer Blocks { uvec3 blockGroups; uint blockCount; uint blocks[]; };
+layout(binding = 11) uniform sampler3D density;
 layout(push_constant, scalar) uniform Push { DrawPush push; };
 
 // Held in registers: a load from a buffer costs a loop over the lanes on lavapipe, for every billboard.
@@ -51,12 +54,17 @@ Chord chordThrough(uint entry, vec3 origin, vec3 direction) {
     return Chord(place, max(along - halfChord, 0.0), squared > 0.0 ? along + halfChord : 0.0);
 }
 
+vec3 voxelAlong(vec3 origin, vec3 direction, float distance) {
+    return params.field.eyeVoxel + params.field.worldToVoxel * (origin + distance * direction);
+}
+
 void addChord(inout RayLight ray, SunView sun, Chord chord, vec3 origin, vec3 direction) {
-    const vec2 rest = imageLoad(billboards, chord.place + ivec2(1, 0)).xy;  // extinction, the sun's depth
-    const float thickness = rest.x * (chord.far - chord.near);
-    const vec3 seen = origin + mix(chord.near, chord.far, seenAt(thickness, 0.5)) * direction;
-    const vec3 voxel = params.field.eyeVoxel + params.field.worldToVoxel * seen;
-    addStretch(ray, sun, chord.near, chord.far, thickness, voxel, SUN ? max(rest.y, sunDepthAt(voxel)) : 0.0);
+    const float share = imageLoad(billboards, chord.place + ivec2(1, 0)).x;
+    const vec3 middle = voxelAlong(origin, direction, 0.5 * (chord.near + chord.far));
+    const float found = densityAt(density, middle, 1.0 / params.field.size);
+    const float thickness = params.field.extinction * share * found * (chord.far - chord.near);
+    const vec3 seen = voxelAlong(origin, direction, mix(chord.near, chord.far, seenAt(thickness, 0.5)));
+    addStretch(ray, sun, chord.near, chord.far, thickness, seen, SUN ? sunDepthAt(seen) : 0.0);
 }
 
 /// Through the list from `next` to `last`. The billboard that is met next is looked for first and lit only then: lanes that

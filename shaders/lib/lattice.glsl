@@ -37,7 +37,7 @@ Probe sum(Probe a, Probe b) { return Probe(a.light + b.light, a.seen + b.seen, a
 bool isWithin(Probe bent, vec3 brightest) {
     const float tolerance = params.lattice.tolerance;
     return all(lessThanEqual(bent.light, tolerance * brightest)) &&
-           all(lessThanEqual(bent.seen, vec2(0.5 * tolerance))) &&
+           all(lessThanEqual(bent.seen, vec2(0.4 * tolerance))) &&
            all(lessThanEqual(bent.distances, vec2(params.lattice.depthTolerance)));
 }
 

@@ -99,14 +99,14 @@ struct InterpolatePush {
 /// Texels in a row of a list that is an image.
 const int LIST_WIDTH = 4096;
 
-/// A homogeneous sphere that stands for a leaf: its extinction mass is the leaf's, whatever the radius.
-/// Two texels of an image: centre and radius; extinction and sunDepth.
+/// A sphere that stands for a leaf. Two texels of an image: centre and radius; share.
 struct Billboard {
     vec3 centre;
     float radius;
-    float extinction;  // 1/m
-    float sunDepth;    // optical depth to the sun of the leaf as a whole
+    float share;  // of the cloud's density
 };
+/// Volume of billboards against what their leaves fill: neighbours overlap, and no holes show.
+const float BILLBOARD_OVERLAP = 2.75F;
 
 /// What a drawing pass leaves of one pixel: three texels of four floats for whoever loads it (shaders/lib/pixel.glsl).
 struct Pixel {
@@ -130,12 +130,11 @@ struct SunDepthPush {
     int firstRow;  // of columns that are filled now
 };
 
-/// From a grid of optical depth to the collectors.
-struct CollectorSunPush {
-    mat3 voxelToTexture;  // of the grid
-    vec3 textureOffset;
-    vec3 inverseSize;  // of the density volume
-    uint collectors;
+/// What the rays find in billboards.
+struct BillboardMeanPush {
+    mat3 worldToVoxel;  // of directions: voxels per metre
+    vec3 inverseSize;   // of the density volume
+    uint spheres;
 };
 
 /// The grid on which collectors' radiance is smoothed.
@@ -174,7 +173,7 @@ static_assert(sizeof(DrawPush) == 24 && offsetof(DrawPush, edge) == 20);
 static_assert(sizeof(InterpolatePush) == 32 && offsetof(InterpolatePush, blocks) == 24);
 static_assert(sizeof(Pixel) == 16 * PIXEL_TEXELS && offsetof(Pixel, unused) == 40);
 static_assert(sizeof(SunDepthPush) == 80 && offsetof(SunDepthPush, firstRow) == 76);
-static_assert(sizeof(CollectorSunPush) == 64 && offsetof(CollectorSunPush, collectors) == 60);
+static_assert(sizeof(BillboardMeanPush) == 52 && offsetof(BillboardMeanPush, spheres) == 48);
 static_assert(sizeof(LightFieldPush) == 84 && offsetof(LightFieldPush, lit) == 80);
 static_assert(sizeof(LightCountsPush) == 64 && offsetof(LightCountsPush, occupied) == 60);
 #endif

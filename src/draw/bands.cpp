@@ -7,7 +7,7 @@
 namespace lumulus::draw {
 
 int bandRows(const Tile& tile) {
-    constexpr int bands = 16, fewestTiles = 2;
+    constexpr int bands = 6, fewestTiles = 2;
     const int tiles = (tile.height + bands * shared::TILE_EDGE - 1) / (bands * shared::TILE_EDGE);
     const int most = (1 << 18) / (tile.width * shared::TILE_EDGE);
     return std::max(fewestTiles, std::min(tiles, most)) * shared::TILE_EDGE;

@@ -1,8 +1,8 @@
 #include "draw/billboards.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+
+#include "draw/billboard_shares.h"
 
 namespace lumulus::draw {
 
@@ -12,27 +12,13 @@ namespace spirv {
 #include "spirv/draw/billboards.comp.h"
 }  // namespace spirv
 
-/// Radius of a billboard against that of the sphere with the volume that its leaf's density takes up: neighbours
-/// overlap and no holes show. A sphere as large as the whole leaf would stand out of the cloud at its edge, where it
-/// glows with the sun behind.
-constexpr double overlap = 1.1;
-
-/// Voxels of the leaf that hold density; no fewer than its mass fills at the greatest density, 1.
-double filledVoxels(const cloud::Collector& collector) {
-    return std::max(collector.occupiedVoxels(), static_cast<double>(collector.mass));
-}
-
-double radiusOf(const cloud::Cloud& cloud, const cloud::Collector& collector) {
-    return overlap * std::cbrt(filledVoxels(collector) * cloud.voxelVolume * 3.0 / (4.0 * std::numbers::pi));
-}
-
-/// Two texels each: the sphere; extinction and the sun's depth.
+/// Two texels each: the sphere; its share.
 std::vector<glm::vec4> billboardTexels(const std::vector<shared::Billboard>& billboards) {
     std::vector<glm::vec4> texels;
     texels.reserve(2 * billboards.size());
     for (const shared::Billboard& b : billboards) {
         texels.emplace_back(b.centre, b.radius);
-        texels.emplace_back(b.extinction, b.sunDepth, 0.0F, 0.0F);
+        texels.emplace_back(b.share, 0.0F, 0.0F, 0.0F);
     }
     return texels;
 }
@@ -49,8 +35,8 @@ gpu::Image listImage(gpu::Context& context, const char* name, std::vector<Texel>
 
 }  // namespace
 
-std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, double extinction, const Camera& camera,
-                                              std::span<const float> sunDepths) {
+std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, std::span<const float> shares,
+                                              const Camera& camera) {
     struct Placed {
         double order;
         std::size_t collector;
@@ -62,14 +48,9 @@ std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, double 
     for (std::size_t i = 0; i < cloud.collectors.size(); ++i) {
         const cloud::Collector& collector = cloud.collectors[i];
         const glm::dvec3 centre = cloud.toWorld.point(glm::dvec3(collector.centre)) - camera.position;
-        const double radius = radiusOf(cloud, collector);
-        const double mass = extinction * static_cast<double>(collector.mass) * cloud.voxelVolume;
+        const auto radius = static_cast<float>(billboardRadius(cloud, collector));
         const double order = parallel ? glm::dot(centre, camera.axes[2]) : glm::dot(centre, centre);
-        placed.push_back({order,
-                          i,
-                          {glm::vec3(centre), static_cast<float>(radius),
-                           static_cast<float>(mass * 3.0 / (4.0 * std::numbers::pi * radius * radius * radius)),
-                           sunDepths.empty() ? 0.0F : sunDepths[i]}});
+        placed.push_back({order, i, {glm::vec3(centre), radius, shares[i]}});
     }
     std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
         return a.order < b.order || (a.order == b.order && a.collector < b.collector);
@@ -84,13 +65,14 @@ Billboards::Billboards(gpu::Context& context, const cloud::Cloud& cloud, const D
     : context_(context),
       cloud_(cloud),
       program_(context, "billboards", spirv::billboards_comp, features.constants()),
+      shares_(billboardShares(context, cloud)),
       offsets_(context, "tile offsets", 0, gpu::Memory::device) {
     for (const cloud::Collector& collector : cloud.collectors)
-        reach_ = std::max(reach_, radiusOf(cloud, collector));
+        reach_ = std::max(reach_, billboardRadius(cloud, collector));
 }
 
-void Billboards::prepare(const Camera& camera, double extinction, std::span<const float> sunDepths) {
-    const std::vector<shared::Billboard> billboards = makeBillboards(cloud_, extinction, camera, sunDepths);
+void Billboards::prepare(const Camera& camera) {
+    const std::vector<shared::Billboard> billboards = makeBillboards(cloud_, shares_, camera);
     tiles_ = makeTileLists(camera, billboards);
     billboards_.emplace(listImage(context_, "billboards", billboardTexels(billboards), VK_FORMAT_R32G32B32A32_SFLOAT));
     offsets_ = filledBuffer(context_, "tile offsets", tiles_.offsets);
@@ -102,6 +84,7 @@ void Billboards::record(gpu::Commands& commands, const FrameInputs& inputs, cons
     bindings.emplace_back("billboards", *billboards_);
     bindings.emplace_back("TileOffsets", offsets_);
     bindings.emplace_back("tileLists", *lists_);
+    bindings.emplace_back("density", cloud_.density, gpu::Sampler::linear);
     commands.pass("billboards");
     dispatchDrawing(commands, program_, bindings, inputs.squares, push);
 }

@@ -13,10 +13,9 @@
 
 namespace lumulus::draw {
 
-/// One billboard a collector, relative to the eye, nearest first (ties by index). `extinction` is σt at density 1
-/// [1/m]; `sunDepths` of the collectors, or none where there is no sun.
-std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, double extinction, const Camera& camera,
-                                              std::span<const float> sunDepths = {});
+/// One billboard a collector, relative to the eye, nearest first (ties by index). `shares`: see billboardShares().
+std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, std::span<const float> shares,
+                                              const Camera& camera);
 
 /// Draws a cloud as billboards into bands of pixels.
 class Billboards {
@@ -24,7 +23,7 @@ class Billboards {
     Billboards(gpu::Context& context, const cloud::Cloud& cloud, const DrawFeatures& features);
 
     /// Sorts and bins for this view, and uploads. Before any commands of the frame are recorded.
-    void prepare(const Camera& camera, double extinction, std::span<const float> sunDepths);
+    void prepare(const Camera& camera);
 
     /// Records one pass over some pixels; the fastest where they begin at multiples of TILE_EDGE.
     void record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawPush& push) const;
@@ -37,6 +36,7 @@ class Billboards {
     gpu::Context& context_;
     const cloud::Cloud& cloud_;
     DrawProgram program_;
+    std::vector<float> shares_;  ///< of the collectors
     double reach_ = 0.0;
     TileLists tiles_;
     std::optional<gpu::Image> billboards_, lists_;  ///< of the view that is prepared

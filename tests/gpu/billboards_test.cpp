@@ -16,7 +16,7 @@ namespace {
 using glm::dvec3;
 using shared::Billboard;
 
-/// Numbers in the place of the collectors' depths to the sun: they tell which billboard is whose.
+/// Numbers in the place of the collectors' shares: they tell which billboard is whose.
 std::vector<float> numbers(std::size_t count) {
     std::vector<float> result(count);
     std::iota(result.begin(), result.end(), 0.0F);
@@ -24,7 +24,7 @@ std::vector<float> numbers(std::size_t count) {
 }
 
 std::size_t collectorOf(const Billboard& billboard) {
-    return static_cast<std::size_t>(billboard.sunDepth);
+    return static_cast<std::size_t>(billboard.share);
 }
 
 class MakeBillboards : public test::VulkanTest {
@@ -40,18 +40,17 @@ class MakeBillboards : public test::VulkanTest {
     }
 };
 
-/// Whatever its radius, a sphere has the extinction mass of its leaf: σ'·4/3 π R³ = σt ∫ρ dV.
-TEST_F(MakeBillboards, KeepTheMass) {
-    const double extinction = 0.3;
+TEST_F(MakeBillboards, StandWhereTheirLeavesHaveDensity) {
     const dvec3 eye(10.0, 20.0, 200.0);
-    const auto billboards = makeBillboards(cloud, extinction, cameraAt(eye, scene::Projection::perspective),
-                                           numbers(cloud.collectors.size()));
+    const auto billboards =
+        makeBillboards(cloud, numbers(cloud.collectors.size()), cameraAt(eye, scene::Projection::perspective));
     ASSERT_EQ(billboards.size(), cloud.collectors.size());
     for (const Billboard& b : billboards) {
         const cloud::Collector& collector = cloud.collectors[collectorOf(b)];
-        const double mass = extinction * static_cast<double>(collector.mass) * cloud.voxelVolume;
         const double sphere = 4.0 / 3.0 * std::numbers::pi * std::pow(static_cast<double>(b.radius), 3);
-        ASSERT_NEAR(static_cast<double>(b.extinction) * sphere, mass, 1e-5 * mass);
+        const double filled = std::max(collector.occupiedVoxels(), static_cast<double>(collector.mass));
+        const double volume = static_cast<double>(shared::BILLBOARD_OVERLAP) * filled * cloud.voxelVolume;
+        ASSERT_NEAR(sphere, volume, 1e-5 * volume);
         const dvec3 place = cloud.toWorld.point(dvec3(collector.centre)) - eye;
         ASSERT_LT(glm::distance(dvec3(b.centre), place), 1e-4);
     }
@@ -62,7 +61,7 @@ TEST_F(MakeBillboards, AreSortedForTheProjection) {
     for (const auto projection :
          {scene::Projection::perspective, scene::Projection::orthographic, scene::Projection::panorama}) {
         const Camera camera = cameraAt({30.0, 30.0, 30.0}, projection);  // inside
-        const auto billboards = makeBillboards(cloud, 1.0, camera, numbers(cloud.collectors.size()));
+        const auto billboards = makeBillboards(cloud, numbers(cloud.collectors.size()), camera);
         double last = -1e300;
         for (const Billboard& b : billboards) {
             const dvec3 centre = cloud.toWorld.point(dvec3(cloud.collectors[collectorOf(b)].centre)) - camera.position;
@@ -85,7 +84,7 @@ TEST_F(MakeBillboards, TiesAreBrokenByIndex) {
         const dvec3 sign(i & 1U ? 1 : -1, i & 2U ? 1 : -1, i & 4U ? 1 : -1);
         cloud.collectors[i].centre = glm::vec3(eye + distance * sign);
     }
-    const auto billboards = makeBillboards(cloud, 1.0, cameraAt(eye, scene::Projection::perspective), numbers(600));
+    const auto billboards = makeBillboards(cloud, numbers(600), cameraAt(eye, scene::Projection::perspective));
     ASSERT_EQ(billboards.size(), 600U);
     for (std::size_t i = 1; i < billboards.size(); ++i) {
         if (i % 200 == 0) continue;  // the next distance

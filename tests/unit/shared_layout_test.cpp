@@ -25,8 +25,8 @@ namespace spirv {
 #include "spirv/cloud/block_majorant.comp.h"
 #include "spirv/cloud/leaf_statistics.comp.h"
 #include "spirv/cloud/sample.comp.h"
+#include "spirv/draw/billboard_mean.comp.h"
 #include "spirv/draw/billboards.comp.h"
-#include "spirv/draw/collector_sun.comp.h"
 #include "spirv/draw/interpolate.comp.h"
 #include "spirv/draw/light_cells.comp.h"
 #include "spirv/draw/light_counts.comp.h"
@@ -125,7 +125,7 @@ TEST(SharedLayout, Draw) {
     EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, eye, voxelToWorld, occupied, lit);
     EXPECT_PUSH(light_counts_comp, LightCountsPush, size, grid, depositCells, depositsAcross, depositBase,
                 depositScale, massScale, photon, moment, occupied);
-    EXPECT_PUSH(collector_sun_comp, CollectorSunPush, voxelToTexture, textureOffset, inverseSize, collectors);
+    EXPECT_PUSH(billboard_mean_comp, BillboardMeanPush, worldToVoxel, inverseSize, spheres);
 }
 
 TEST(SharedLayout, Fog) {
