@@ -120,7 +120,7 @@ void Renderer::State::recordBlocks(const draw::FrameInputs& inputs, const shared
     const int first = std::max(needed.first, latticeRowsDrawn), end = needed.first + needed.rows;
     if (end > first) {
         recordPixels(into(interpolation.points(), inputs.squares),
-                     {shared::DRAW_LATTICE, lattice.first + glm::ivec2(0, first), {lattice.size.x, end - first}, 0});
+                     {shared::DRAW_LATTICE, lattice.first + glm::ivec2(0, first), {lattice.size.x, end - first}});
         commands.barrier("lattice points");
         latticeRowsDrawn = end;
     }
@@ -143,7 +143,7 @@ void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inp
     if (lattice.spacing > 1)
         recordBlocks(inputs, lattice, band, pixels);
     else
-        recordPixels(inputs, {shared::DRAW_PIXELS, {pixels.x, pixels.y}, {pixels.width, pixels.height}, 0});
+        recordPixels(inputs, {shared::DRAW_PIXELS, {pixels.x, pixels.y}, {pixels.width, pixels.height}});
     commands.submit();
     commands.wait();
     addTimes(commands.times());
@@ -167,8 +167,8 @@ void Renderer::State::drawLight(photon::Part part) {
 void Renderer::State::drawBands(LayeredImage& image, const std::vector<draw::Band>& bands, const Report& told) {
     gpu::Buffer params(context, "draw params", sizeof(shared::DrawParams), gpu::Memory::host);
     const gpu::Buffer pixels(context, "pixels",
-                             static_cast<std::uint64_t>(draw::bandRows(shown)) * static_cast<std::uint64_t>(shown.width) *
-                                 sizeof(shared::Pixel),
+                             static_cast<std::uint64_t>(draw::bandRows(shown)) *
+                                 static_cast<std::uint64_t>(shown.width) * sizeof(shared::Pixel),
                              gpu::Memory::host);
     // Stand for what the scene does not have: the shaders never read them, but every binding must be there.
     const gpu::Image none(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT);

@@ -86,7 +86,8 @@ void main() {
                                       pointAt(block + 1));
     if (HALVES) storeHalf(2 * local, corners[0]);
     if (!isSmooth(block, corners) || meetsSun(block * spacing, spacing)) {
-        list(block, HALVES ? uint(HALVES_GROUP) : uint(DRAW_GROUP / (spacing * spacing)));
+        list(block);
+        if (!HALVES) storePixel(block * spacing, withDisc(corners[0], block * spacing));
         return;
     }
     for (int i = 0; i < spacing * spacing; ++i) {

@@ -4,7 +4,7 @@
 // interpolated where the picture hardly bends at that spacing; others are listed to be drawn pixel by pixel.
 #include "shared/draw.h"
 
-layout(local_size_x = 64) in;  // the cells of HALVES_GROUP blocks
+layout(local_size_x = 88) in;  // the cells of LISTED_GROUP blocks, and four more
 
 layout(binding = 0, scalar) readonly buffer Params { DrawParams storedParams; };
 layout(binding = 1, rgba32f) readonly uniform imageBuffer halves;
@@ -55,21 +55,19 @@ bool isSmooth(ivec2 cell) {
 
 void main() {
     params = storedParams;
-    const uint index = gl_WorkGroupID.x * uint(HALVES_GROUP) + gl_LocalInvocationIndex / 4u;
-    if (index >= blockCount) return;
+    const uint index = gl_WorkGroupID.x * uint(LISTED_GROUP) + gl_LocalInvocationIndex / 4u;
+    if (index >= blockCount || gl_LocalInvocationIndex / 4u >= uint(LISTED_GROUP)) return;
     const ivec2 cell = 2 * squareAt(blocks[index]) + ivec2(gl_LocalInvocationIndex & 1u, gl_LocalInvocationIndex >> 1u & 1u);
     const ivec2 place = 2 * cell - push.first;
     if (any(lessThanEqual(place, ivec2(-2))) || any(greaterThanEqual(place, push.count))) return;
     const Pixel corners[4] = Pixel[4](pointAt(cell), pointAt(cell + ivec2(1, 0)), pointAt(cell + ivec2(0, 1)),
                                       pointAt(cell + 1));
-    if (!isSmooth(cell) || meetsSun(2 * cell, 2)) {
-        list(cell, uint(DRAW_GROUP / 4));
-        return;
-    }
-    for (int i = 0; i < 4; ++i) {
+    const bool drawn = !isSmooth(cell) || meetsSun(2 * cell, 2);
+    if (drawn) list(cell);
+    for (int i = 0; i < (drawn ? 1 : 4); ++i) {
         const ivec2 part = ivec2(i & 1, i >> 1);
         if (any(lessThan(place + part, ivec2(0))) || any(greaterThanEqual(place + part, push.count))) continue;
-        const Pixel pixel = blend(corners, 0.5 * vec2(part));
+        const Pixel pixel = drawn ? withDisc(corners[0], 2 * cell) : blend(corners, 0.5 * vec2(part));
         const int index = (place.y + part.y) * push.count.x + place.x + part.x;
         STORE_PIXEL(pixels, index, pixel);
     }

@@ -17,20 +17,13 @@ ivec2 placeDrawn() {
 bool drawnPixel(out ivec2 pixel, out int slot) {
     const LatticeParams lattice = params.lattice;
     ivec2 place = placeDrawn();
-    if (push.what == DRAW_SQUARES) {
-        const uint each = uint(push.edge * push.edge);
-        const uint index = gl_WorkGroupID.x * uint(DRAW_GROUP) + gl_LocalInvocationIndex;
-        if (index / each >= blockCount) return false;
-        const int part = int(index % each);
-        pixel = squareAt(blocks[index / each]) * push.edge + ivec2(part % push.edge, part / push.edge);
+    if (push.what == DRAW_SQUARES || push.what == DRAW_HALVES) {
+        const uint index = gl_WorkGroupID.x * uint(LISTED_GROUP) + gl_LocalInvocationIndex / 3u;
+        const int part = int(gl_LocalInvocationIndex % 3u) + 1;
+        if (index >= blockCount || gl_LocalInvocationIndex / 3u >= uint(LISTED_GROUP)) return false;
+        pixel = 2 * squareAt(blocks[index]) + ivec2(part & 1, part >> 1);
         place = pixel - push.first;
-    } else if (push.what == DRAW_HALVES) {
-        const uint index = gl_WorkGroupID.x * uint(HALVES_GROUP) + gl_LocalInvocationIndex % uint(HALVES_GROUP);
-        const int part = int(gl_LocalInvocationIndex / uint(HALVES_GROUP));
-        if (part == 0 || index >= blockCount) return false;
-        const ivec2 point = 2 * squareAt(blocks[index]) + ivec2(part & 1, part >> 1);
-        pixel = 2 * point;
-        place = point - push.first;
+        if (push.what == DRAW_HALVES) pixel *= 2;
     } else {
         pixel = (push.first + place) * (push.what == DRAW_LATTICE ? lattice.spacing : 1);
     }

@@ -5,6 +5,7 @@
 
 #include "shared/draw.h"
 #include "shared/phase.h"
+#include "lib/disc.glsl"
 #include "lib/pixel.glsl"
 #include "lib/square.glsl"
 #include "lib/view.glsl"
@@ -62,11 +63,19 @@ Pixel blend(Pixel a, Pixel b, float share) {
                  mix(a.radiance, b.radiance, share), vec2(0.0));
 }
 
-/// Lists a square of pixels by its corner in units of its edge; `each` of them are drawn by a workgroup.
-void list(ivec2 square, uint each) {
+/// Lists a square of pixels by its corner in units of its edge.
+void list(ivec2 square) {
     const uint place = atomicAdd(listCount, 1u);
-    if (place % each == 0u) atomicAdd(listGroups.x, 1u);
+    if (place % uint(LISTED_GROUP) == 0u) atomicAdd(listGroups.x, 1u);
     listed[place] = packedSquare(square);
+}
+
+/// A lattice point as a pixel of the picture: points do not have the sun's disc, which would spread over their neighbours.
+Pixel withDisc(Pixel point, ivec2 pixel) {
+    vec3 origin, direction;
+    viewRay(params.view, pixel, 1, origin, direction);
+    point.radiance += discSeen(params.light, direction) * point.transmittance;
+    return point;
 }
 
 /// Between four corners, row by row.

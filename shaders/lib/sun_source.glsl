@@ -6,6 +6,7 @@
 
 #include "shared/draw.h"
 #include "shared/phase_table.h"
+#include "lib/disc.glsl"
 
 /// exp of a multiple of the decay; one exponential where the albedo is grey.
 vec3 decayed(vec3 x) { return GREY ? vec3(exp(x.x)) : exp(x); }
@@ -66,11 +67,6 @@ vec3 sunScattered(SunView sun, LightParams light, float tauSun, float tauView, f
                   decayed(-light.decay * (tauSun + tauView)) * held;
     }
     return light.albedo * light.sunIrradiance * source;
-}
-
-/// Radiance of the sun's disc where the view meets it.
-vec3 discSeen(LightParams light, vec3 direction) {
-    return angleBetween(light.sunTravel, -direction).oneMinusCos <= light.sunCone ? light.sunDisc : vec3(0.0);
 }
 
 #endif

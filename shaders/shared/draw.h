@@ -69,23 +69,21 @@ struct DrawParams {
     int samples;  // rays a pixel, along each side: a grid of them where pixels are larger than voxels
 };
 
-/// Which pixels a dispatch draws: a rectangle of them; a rectangle of lattice points; those pixels of a rectangle that
-/// lie in listed squares; or, of a rectangle of every second pixel of every second row, the three in listed blocks
-/// (four by four pixels, from a lattice point to the next ones) that are no lattice points.
+/// Which pixels a dispatch draws: a rectangle of them; a rectangle of lattice points; of a rectangle the pixels in
+/// listed squares of two by two; or, of a rectangle of every second pixel of every second row, those in listed blocks
+/// (four by four pixels, from a lattice point to the next ones). In squares and blocks the first pixel is known and
+/// left out.
 const int DRAW_PIXELS = 0;
 const int DRAW_LATTICE = 1;
 const int DRAW_SQUARES = 2;
 const int DRAW_HALVES = 3;
-/// Invocations of a workgroup that draws, 16×4, and blocks that one draws halves of: the invocations of lattice points
-/// idle.
-const int DRAW_GROUP = 64;
-const int HALVES_GROUP = 16;
+/// Squares or blocks of which a workgroup (16×4 invocations) draws three pixels each.
+const int LISTED_GROUP = 21;
 
 struct DrawPush {
     int what;
     ivec2 first;
     ivec2 count;
-    int edge;  // of listed squares, pixels
 };
 
 /// Pixels that are interpolated, and blocks from lattice point to lattice point that are looked at for them.
@@ -169,7 +167,7 @@ static_assert(sizeof(LightParams) == 88 && offsetof(LightParams, tauMaximum) == 
 static_assert(sizeof(FieldParams) == 152 && offsetof(FieldParams, sunOffset) == 140);
 static_assert(sizeof(LatticeParams) == 28 && offsetof(LatticeParams, depthTolerance) == 24);
 static_assert(sizeof(DrawParams) == 332 && offsetof(DrawParams, samples) == 328);
-static_assert(sizeof(DrawPush) == 24 && offsetof(DrawPush, edge) == 20);
+static_assert(sizeof(DrawPush) == 20 && offsetof(DrawPush, count) == 12);
 static_assert(sizeof(InterpolatePush) == 32 && offsetof(InterpolatePush, blocks) == 24);
 static_assert(sizeof(Pixel) == 16 * PIXEL_TEXELS && offsetof(Pixel, unused) == 40);
 static_assert(sizeof(SunDepthPush) == 80 && offsetof(SunDepthPush, firstRow) == 76);

@@ -116,14 +116,11 @@ shared::InterpolatePush Interpolation::push(const Tile& pixels) const {
 
 shared::DrawPush Interpolation::halfPoints(const Tile& pixels) const {
     const shared::InterpolatePush all = push(pixels);
-    return {shared::DRAW_HALVES, 2 * all.firstBlock, 2 * all.blocks, 0};
+    return {shared::DRAW_HALVES, 2 * all.firstBlock, 2 * all.blocks};
 }
 
 shared::DrawPush Interpolation::squares(const Tile& pixels) const {
-    return {shared::DRAW_SQUARES,
-            {pixels.x, pixels.y},
-            {pixels.width, pixels.height},
-            hasHalves(spacing_) ? lattice_.spacing / 2 : lattice_.spacing};
+    return {shared::DRAW_SQUARES, {pixels.x, pixels.y}, {pixels.width, pixels.height}};
 }
 
 void Interpolation::record(gpu::Commands& commands, const FrameInputs& inputs, const Tile& pixels) const {

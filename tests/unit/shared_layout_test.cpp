@@ -118,13 +118,13 @@ TEST(SharedLayout, Draw) {
                   radianceScale, voxelToSun, sunOffset);
     EXPECT_LAYOUT(billboards_comp, LatticeParams, first, size, spacing, tolerance, depthTolerance);
     EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, field, lattice, tilesAcross, samples);
-    EXPECT_PUSH(billboards_comp, DrawPush, what, first, count, edge);
+    EXPECT_PUSH(billboards_comp, DrawPush, what, first, count);
     EXPECT_PUSH(interpolate_comp, InterpolatePush, first, count, firstBlock, blocks);
     EXPECT_LAYOUT(billboards_comp, Pixel, cloud, transmittance, alpha, depth, front, radiance, unused);
     EXPECT_PUSH(sun_depth_comp, SunDepthPush, gridToVoxel, originVoxel, inverseSize, grid, step, firstRow);
     EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, eye, voxelToWorld, occupied, lit);
-    EXPECT_PUSH(light_counts_comp, LightCountsPush, size, grid, depositCells, depositsAcross, depositBase,
-                depositScale, massScale, photon, moment, occupied);
+    EXPECT_PUSH(light_counts_comp, LightCountsPush, size, grid, depositCells, depositsAcross, depositBase, depositScale,
+                massScale, photon, moment, occupied);
     EXPECT_PUSH(billboard_mean_comp, BillboardMeanPush, worldToVoxel, inverseSize, spheres);
 }
 
