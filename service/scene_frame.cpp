@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> photonPasses{"trace", "sort", "gather", "accumulate"};
 /// Once for each direction of the sun: not what a frame costs.
-constexpr std::array<std::string_view, 2> sunPasses{"sun depth", "collector sun"};
+constexpr std::array<std::string_view, 1> sunPasses{"sun depth"};
 constexpr std::array<std::string_view, 4> pixelPasses{"march", "billboards", "interpolate", "interpolate halves"};
 
 template <std::size_t N>
