@@ -14,7 +14,7 @@ constexpr std::array<double, 8> truncated{0.071, 0.0073, 0.0013, 1.8e-4, 1e-4, 9
 /// Of cells of the light field and of leaves as large as the mean free path, with so many photons; fewer photons have
 /// larger cells, a power of which fits what was measured from 2e5 on. What the forward peak left in the walk and
 /// billboards add.
-constexpr double space = 0.001, manyPhotons = 8e6, growth = 0.64, withoutCut = 0.0115, billboards = 0.036;
+constexpr double space = 0.001, manyPhotons = 8e6, growth = 0.64, withoutCut = 0.0115, billboards = 0.0115;
 
 }  // namespace
 
