@@ -20,6 +20,14 @@ constexpr auto watchPeriod = std::chrono::milliseconds(250);
 /// For replies to leave after the work is done.
 constexpr auto farewell = std::chrono::seconds(2);
 
+/// Keeps SIGINT and SIGTERM with the handler of asio until the process is gone: without a set that wants them, asio
+/// gives them back to the system, and another one while the server ends would make a failure of it.
+void holdSignals() {
+    static asio::io_context* const never = new asio::io_context(1);
+    static asio::signal_set* const held = new asio::signal_set(*never, SIGINT, SIGTERM);
+    (void)held;
+}
+
 class Server {
   public:
     explicit Server(const Config& config)
@@ -28,6 +36,7 @@ class Server {
           pages_(io_, hub_),
           signals_(io_, SIGINT, SIGTERM),
           watch_(io_) {
+        holdSignals();
         if (!config.tcp.empty()) frames_.listenTcp(config.tcp);
         if (!config.unixSocket.empty()) frames_.listenUnix(config.unixSocket, config.unixMode);
         if (!config.http.empty()) pages_.listen(config.http);
@@ -46,10 +55,6 @@ class Server {
             if (!error && !finishing_.joinable()) shutDown();
         });
         io_.run();
-        // all that is left is to end: another signal does not make a failure of it
-        signals_.clear();
-        std::signal(SIGINT, SIG_IGN);
-        std::signal(SIGTERM, SIG_IGN);
         logEvent("info", "stopped", nullptr);
     }
 
