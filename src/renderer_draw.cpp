@@ -248,7 +248,7 @@ LayeredImage Renderer::draw(const View& view) {
     const Tile wanted = s.tile;
     if (s.fog) s.tile = {0, 0, view.image.width, view.image.height};  // its filter sees beyond the tile
     s.shown = s.shownPart();
-    LayeredImage image = draw::skyImage(s.camera, s.tile, s.scene.sun, s.scene.sky, s.shown);
+    LayeredImage image = draw::skyImage(s.camera, s.tile, s.scene.sun, s.scene.sky, s.raysAcross, s.shown);
     s.statistics.passes.clear();
     if (s.photons) {
         s.photons->settle();

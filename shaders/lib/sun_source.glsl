@@ -31,26 +31,23 @@ float betweenCorners(vec4 corners, vec2 place) {
     return mix(atDepth.x, atDepth.y, place.y);
 }
 
-/// A look-up at an optical depth. An image cannot be handed to a function.
-#define ONE_TURN_AT(table, cell, sun)                                                                              \
-    (GREY ? vec3(betweenCorners(imageLoad(table, ivec2(cell.base, sun.angle.base)),                                \
-                                vec2(cell.fraction, sun.angle.fraction)))                                          \
-          : vec3(betweenCorners(imageLoad(table, ivec2(3 * cell.base, sun.angle.base)),                            \
-                                vec2(cell.fraction, sun.angle.fraction)),                                          \
-                 betweenCorners(imageLoad(table, ivec2(3 * cell.base + 1, sun.angle.base)),                        \
-                                vec2(cell.fraction, sun.angle.fraction)),                                          \
-                 betweenCorners(imageLoad(table, ivec2(3 * cell.base + 2, sun.angle.base)),                        \
-                                vec2(cell.fraction, sun.angle.fraction))))
+/// A look-up of `sun` at `depth`, a TableCell. An image cannot be handed to a function.
+#define IN_CELL(table, depth, texel) \
+    betweenCorners(imageLoad(table, ivec2(texel, sun.angle.base)), vec2(depth.fraction, sun.angle.fraction))
+#define ONE_TURN_AT(table, depth)                                                                      \
+    (GREY ? vec3(IN_CELL(table, depth, depth.base))                                                    \
+          : vec3(IN_CELL(table, depth, 3 * depth.base), IN_CELL(table, depth, 3 * depth.base + 1),     \
+                 IN_CELL(table, depth, 3 * depth.base + 2)))
 
 /// H(τs,θ) and K(τ,θ) without their decay e^−κτ.
 vec3 oneTurnBefore(SunView sun, LightParams light, float tau) {
     const TableCell depth = tableCell(tauToAxis(tau, light.tauMaximum), oneTurnTauCount);
-    return ONE_TURN_AT(oneTurnH, depth, sun);
+    return ONE_TURN_AT(oneTurnH, depth);
 }
 
 vec3 oneTurnAfter(SunView sun, LightParams light, float tau) {
     const TableCell depth = tableCell(tauToAxis(tau, light.tauMaximum), oneTurnTauCount);
-    return ONE_TURN_AT(oneTurnK, depth, sun);
+    return ONE_TURN_AT(oneTurnK, depth);
 }
 
 /// Radiance that a stretch of optical thickness `thickness`, seen through `tauView` and lit through `tauSun`, sends to

@@ -13,10 +13,17 @@ namespace lumulus::draw {
 
 namespace {
 
-/// Of the disc, in the middle of the pixel.
 bool seesSun(const Camera& camera, double px, double py, const glm::dvec3& directionTo, double radius) {
     const glm::dvec3 direction = camera.ray(px, py).direction;
     return 2.0 * std::atan2(glm::length(direction - directionTo), glm::length(direction + directionTo)) <= radius;
+}
+
+/// Part of a pixel's rays, a grid of `rays` along each side, that meet the disc.
+double sunInPixel(const Camera& camera, int x, int y, int rays, const glm::dvec3& directionTo, double radius) {
+    int met = 0;
+    for (int i = 0; i < rays * rays; ++i)
+        met += seesSun(camera, x + (i % rays + 0.5) / rays, y + (i / rays + 0.5) / rays, directionTo, radius);
+    return static_cast<double>(met) / (rays * rays);
 }
 
 /// Whether a disc may be seen at all: by the angles between the middle of a perspective view and its corners.
@@ -58,23 +65,27 @@ LayeredImage emptyFrame(const Tile& tile, const glm::dvec3& radiance) {
     return image;
 }
 
-LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& sun, const scene::Sky& sky,
+LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& sun, const scene::Sky& sky, int rays,
                       const Tile& without) {
     LayeredImage image = emptyFrame(tile, sky.radiance);
     const double radius = 0.5 * sun.angularDiameter * std::numbers::pi / 180.0;
     const double disc = std::numbers::pi * std::pow(std::sin(radius), 2);
     if (!(disc > 0.0) || !maySeeSun(camera, sun.directionTo, radius)) return image;
     const std::array<std::vector<float>*, 3> colours{&image.layer("R"), &image.layer("G"), &image.layer("B")};
-    const glm::vec3 bright(sky.radiance + sun.irradiance / disc);
     tbb::parallel_for(tile.y, tile.y + tile.height, [&](int y) {
+        const auto fill = [&](int first, int end) {
+            for (int x = first; x < end; ++x) {
+                const double share = sunInPixel(camera, x, y, rays, sun.directionTo, radius);
+                const auto i = static_cast<std::size_t>(y - tile.y) * static_cast<std::size_t>(tile.width) +
+                               static_cast<std::size_t>(x - tile.x);
+                for (int c = 0; share > 0.0 && c < 3; ++c)
+                    (*colours[static_cast<std::size_t>(c)])[i] =
+                        static_cast<float>(sky.radiance[c] + share * sun.irradiance[c] / disc);
+            }
+        };
         const bool crosses = y >= without.y && y < without.y + without.height;
-        for (int x = tile.x; x < tile.x + tile.width; ++x) {
-            if (crosses && x == without.x) x += without.width;
-            if (x >= tile.x + tile.width || !seesSun(camera, x + 0.5, y + 0.5, sun.directionTo, radius)) continue;
-            const auto i = static_cast<std::size_t>(y - tile.y) * static_cast<std::size_t>(tile.width) +
-                           static_cast<std::size_t>(x - tile.x);
-            for (int c = 0; c < 3; ++c) (*colours[static_cast<std::size_t>(c)])[i] = bright[c];
-        }
+        fill(tile.x, crosses ? without.x : tile.x + tile.width);
+        if (crosses) fill(without.x + without.width, tile.x + tile.width);
     });
     return image;
 }

@@ -13,10 +13,10 @@ namespace lumulus::draw {
 /// All layers that a picture has, of that radiance, nothing in the way.
 LayeredImage emptyFrame(const Tile& tile, const glm::dvec3& radiance = glm::dvec3(0.0));
 
-/// The part `tile` of the picture without a cloud: sky, the sun's disc, and the layers that every picture has. The disc
-/// may be left out in a part of it, which is drawn later.
+/// The part `tile` of the picture without a cloud: sky, the sun's disc, and the layers that every picture has. `rays`
+/// along each side of a pixel meet the disc or not; it may be left out in a part, which is drawn later.
 LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& sun, const scene::Sky& sky,
-                      const Tile& without = {0, 0, 0, 0});
+                      int rays = 1, const Tile& without = {0, 0, 0, 0});
 
 /// Spreads a rectangle of pixels over the layers of an image; `place` is where it lies in it.
 void copyPixels(std::span<const shared::Pixel> pixels, LayeredImage& image, const Tile& place);

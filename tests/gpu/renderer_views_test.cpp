@@ -43,6 +43,13 @@ double relativeDifference(const LayeredImage& a, const LayeredImage& b, const st
     return std::sqrt(squares / norm);
 }
 
+View viewFrom(const Renderer& renderer, const dvec3& position, const dvec3& target) {
+    View view = renderer.sceneView();
+    view.camera.position = position;
+    view.camera.target = target;
+    return view;
+}
+
 double sumOf(const LayeredImage& image, const std::string& layer) {
     const std::vector<float>& values = image.layers.at(layer);
     return std::accumulate(values.begin(), values.end(), 0.0);
@@ -208,9 +215,7 @@ TEST_P(Views, ChangedExtinctionAgesIn) {
 /// A cloud that drifts with the wind looks as it does from a camera that drifts the other way.
 TEST_P(Views, OffsetMovesTheCloud) {
     const auto renderer = ringRenderer(scene, 2);
-    View view = renderer->sceneView();
-    view.camera.position = dvec3(600.0, 100.0, 0.0);
-    view.camera.target = dvec3(0.0, 100.0, 0.0);
+    View view = viewFrom(*renderer, dvec3(600.0, 100.0, 0.0), dvec3(0.0, 100.0, 0.0));
     const LayeredImage still = renderer->draw(view);
     const dvec3 drift(1000.0, 10.0, -50.0);
     renderer->setOffset(drift);
@@ -219,13 +224,10 @@ TEST_P(Views, OffsetMovesTheCloud) {
     EXPECT_LT(relativeDifference(renderer->draw(view), still, "G"), 1e-3);
 }
 
-/// Nothing is drawn for a cloud that is out of view, and what is drawn of one at the edge goes on in the sky beside it.
+/// Nothing is drawn for a cloud that is out of view.
 TEST_P(Views, NothingIsDrawnWhereNoCloudIs) {
     const auto renderer = ringRenderer(scene, 2);
-    View view = renderer->sceneView();
-    view.camera.position = dvec3(0.0, 100.0, 600.0);
-    view.camera.target = dvec3(0.0, 100.0, 1200.0);
-    const LayeredImage away = renderer->draw(view);
+    const LayeredImage away = renderer->draw(viewFrom(*renderer, dvec3(0.0, 100.0, 600.0), dvec3(0.0, 100.0, 1200.0)));
     EXPECT_EQ(sumOf(away, "A"), 0.0);
     EXPECT_NEAR(sumOf(away, "B"), scene.sky.radiance.b * static_cast<double>(away.pixels()), 1e-3);
     for (const PassTime& pass : renderer->statistics().passes) {
@@ -233,14 +235,30 @@ TEST_P(Views, NothingIsDrawnWhereNoCloudIs) {
         EXPECT_NE(pass.name, "billboards");
         EXPECT_NE(pass.name, "light field");
     }
-    view.camera.target = dvec3(250.0, 100.0, 0.0);
-    const LayeredImage beside = renderer->draw(view);
-    EXPECT_GT(sumOf(beside, "A"), 10.0);
-    const float sky = away.layers.at("B").front();
-    for (std::size_t i = 0; i < beside.pixels(); ++i) {
-        if (beside.layers.at("A")[i] > 0.0F) continue;
-        ASSERT_FLOAT_EQ(beside.layers.at("B")[i], sky) << i;
+}
+
+/// Beside a cloud the picture is that of a sky without one, the sun's disc included: it lies across the edge of what is
+/// drawn.
+TEST_P(Views, TheSkyGoesOnBesideTheCloud) {
+    scene.sun.directionTo = glm::normalize(dvec3(0.42, 0.0, -1.0));
+    scene.sun.angularDiameter = 20.0;
+    scene.image = {160, 120, 0.0};  // a ray a pixel in both
+    const auto renderer = ringRenderer(scene, 2);
+    scene.clouds[0].extinction = 0.0;
+    const auto alone = ringRenderer(scene, 0);
+    const View view = viewFrom(*renderer, dvec3(0.0, 100.0, 600.0), dvec3(150.0, 100.0, 0.0));
+    const LayeredImage both = renderer->draw(view), sky = alone->draw(view);
+    std::size_t bright = 0, covered = 0;
+    for (std::size_t i = 0; i < both.pixels(); ++i) {
+        if (both.layers.at("A")[i] > 0.0F) {
+            ++covered;
+            continue;
+        }
+        ASSERT_FLOAT_EQ(both.layers.at("B")[i], sky.layers.at("B")[i]) << i;
+        bright += static_cast<double>(sky.layers.at("B")[i]) > 2.0 * scene.sky.radiance.b;
     }
+    EXPECT_GT(covered, 1000U);
+    EXPECT_GT(bright, 500U);
 }
 
 /// Two cameras of a dome, each 90° wide, that look square to each other: their pictures go on over the common edge as

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "base/error.h"
 
@@ -140,6 +141,40 @@ TEST(Bounds, AreThoseOfTheFilledVoxels) {
     double farthest = 0.0;
     for (const dvec3& corner : some.corners()) farthest = std::max(farthest, glm::distance(corner, some.centre));
     EXPECT_DOUBLE_EQ(some.radius(), farthest);
+}
+
+/// In every direction the outline reaches as far as the cloud, and no farther than the bundles of four by four rows
+/// that it is made of; points that others hold between them are left out.
+TEST(Bounds, OutlineIsAConvexHull) {
+    constexpr int size = 48;
+    vdb::Volume volume;
+    volume.size = {size, size, size};
+    volume.density.assign(size * size * size, 0.0F);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    std::vector<dvec3> corners;
+    for (int z = 0; z < size; ++z)
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x) {
+                // a ball with a rough surface
+                const double away = glm::distance(dvec3(x, y, z) + 0.5, dvec3(0.5 * size));
+                if (away > 18.0 + 4.0 * uniform(random)) continue;
+                volume.density[volume.index(x, y, z)] = 1.0F;
+                for (unsigned i = 0; i < 8; ++i) corners.emplace_back(x + (i & 1U), y + (i >> 1U & 1U), z + (i >> 2U));
+            }
+    const Bounds bounds = boundsOf(volume);
+    const auto reach = [](const std::vector<dvec3>& points, const dvec3& direction) {
+        double farthest = -1e300;
+        for (const dvec3& point : points) farthest = std::max(farthest, glm::dot(point, direction));
+        return farthest;
+    };
+    for (int i = 0; i < 100; ++i) {
+        const dvec3 direction = glm::normalize(dvec3(uniform(random), uniform(random), uniform(random)));
+        const double found = reach(bounds.outline, direction), least = reach(corners, direction);
+        ASSERT_GE(found, least - 1e-9);
+        ASSERT_LE(found, least + 4.0 * std::sqrt(2.0));
+    }
+    EXPECT_LT(bounds.outline.size(), 400U) << "of 8 for each of some 120 bundles";
 }
 
 }  // namespace
