@@ -125,8 +125,9 @@ def finish(options, figures):
 
 
 def run(main):
-    """main(), with failures as one line."""
+    """main(), with failures as one line and exit code 2."""
     try:
         main()
     except Failure as failure:
-        sys.exit(f"{pathlib.Path(sys.argv[0]).name}: {failure}")
+        print(f"{pathlib.Path(sys.argv[0]).name}: {failure}", file=sys.stderr)
+        sys.exit(2)

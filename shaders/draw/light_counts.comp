@@ -36,8 +36,10 @@ float countedIn(ivec3 first, int across) {
     int64_t sum = 0l;
     for (int z = first.z; z < end.z; ++z)
         for (int y = first.y; y < end.y; ++y)
-            for (int x = first.x; x < end.x; ++x)
-                sum += deposits[push.depositBase + numberIn(push.depositCells, ivec3(x, y, z))];
+            for (int x = first.x; x < end.x; ++x) {
+                const ivec3 cell = ivec3(x, y, z);
+                sum += deposits[push.depositBase + cubePlace(push.depositCells, cell) + placeInCube(cell)];
+            }
     return push.depositScale * float(sum);
 }
 
@@ -48,7 +50,8 @@ vec3 fluxIn(ivec3 first, int across) {
     for (int z = first.z; z < end.z; z += FLUX_EDGE)
         for (int y = first.y; y < end.y; y += FLUX_EDGE)
             for (int x = first.x; x < end.x; x += FLUX_EDGE) {
-                const uint place = push.depositBase + fluxPlace(push.depositCells, ivec3(x, y, z));
+                const uint place =
+                    push.depositBase + cubePlace(push.depositCells, ivec3(x, y, z)) + uint(CUBE_CELLS);
                 sum += vec3(deposits[place], deposits[place + 1u], deposits[place + 2u]);
             }
     return push.depositScale * sum;

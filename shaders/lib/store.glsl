@@ -17,10 +17,10 @@ layout(binding = 10, scalar) buffer Deposits { int64_t deposits[]; };
 /// `amount` in counts of the coefficients, luminance.
 void deposit(TraceParams params, vec3 voxel, vec3 direction, float amount) {
     const ivec3 cell = min(ivec3(voxel) / params.depositEdge, params.depositCells - 1);
-    const uint flux = params.depositBase + fluxPlace(params.depositCells, cell);
-    atomicAdd(deposits[params.depositBase + numberIn(params.depositCells, cell)], int64_t(roundEven(amount)));
+    const uint cube = params.depositBase + cubePlace(params.depositCells, cell);
+    atomicAdd(deposits[cube + placeInCube(cell)], int64_t(roundEven(amount)));
     for (int axis = 0; axis < 3; ++axis)
-        atomicAdd(deposits[flux + uint(axis)], int64_t(roundEven(amount * direction[axis])));
+        atomicAdd(deposits[cube + uint(CUBE_CELLS + axis)], int64_t(roundEven(amount * direction[axis])));
 }
 
 /// Light of this power [record units] that travels in a direction, at a place, as record number `place`. False: no

@@ -1,5 +1,6 @@
 // What photons count in cells: the luminance that turns in each, and in cubes of FLUX_EDGE cells its vector, the sum of
-// luminance times direction. int64 each: [cell], then [cube][x, y, z].
+// luminance times direction. int64 each. A cube's cells and its vector lie together, and the cubes of a block too: what
+// a photon meets next is near, in the cache and in the page.
 #ifndef LUMULUS_SHARED_DEPOSITS_H
 #define LUMULUS_SHARED_DEPOSITS_H
 
@@ -7,29 +8,42 @@
 
 SHARED_BEGIN
 
-/// Directions are noisier than amounts and change more slowly in space (docs/error-time.md).
+/// Cells along the edge of a cube. Directions are noisier than amounts and change more slowly in space
+/// (docs/error-time.md).
 const int FLUX_EDGE = 2;
+const int CUBE_CELLS = FLUX_EDGE * FLUX_EDGE * FLUX_EDGE;
+/// int64 of a cube: its cells, then the vector.
+const int CUBE_COUNTS = CUBE_CELLS + 3;
+/// Cubes along the edge of a block.
+const int BLOCK_CUBES = 4;
 
-SHARED_FN ivec3 fluxCubes(ivec3 cells) {
-    return (cells + (FLUX_EDGE - 1)) / FLUX_EDGE;
+SHARED_FN uvec3 depositBlocks(ivec3 cells) {
+    const uint edge = uint(FLUX_EDGE * BLOCK_CUBES);
+    return (uvec3(cells) + (edge - 1U)) / edge;
 }
 
-SHARED_FN uint numberIn(ivec3 cells, ivec3 cell) {
-    return uint((cell.z * cells.y + cell.y) * cells.x + cell.x);
+SHARED_FN uint numberIn(uvec3 extent, uvec3 place) {
+    return (place.z * extent.y + place.y) * extent.x + place.x;
 }
 
-SHARED_FN uint cellsIn(ivec3 cells) {
-    return uint(cells.x) * uint(cells.y) * uint(cells.z);
+/// Where the counts of a cell's cube begin.
+SHARED_FN uint cubePlace(ivec3 cells, ivec3 cell) {
+    const uint edge = uint(BLOCK_CUBES);
+    const uvec3 cube = uvec3(cell) / uint(FLUX_EDGE);
+    const uint number =
+        numberIn(depositBlocks(cells), cube / edge) * (edge * edge * edge) + numberIn(uvec3(edge), cube % edge);
+    return number * uint(CUBE_COUNTS);
 }
 
-/// Place of a cube's first component.
-SHARED_FN uint fluxPlace(ivec3 cells, ivec3 cell) {
-    return cellsIn(cells) + 3U * numberIn(fluxCubes(cells), cell / FLUX_EDGE);
+/// Of its cell, counted from cubePlace().
+SHARED_FN uint placeInCube(ivec3 cell) {
+    return numberIn(uvec3(uint(FLUX_EDGE)), uvec3(cell) % uint(FLUX_EDGE));
 }
 
-/// int64 of all cells and cubes.
+/// int64 of all blocks.
 SHARED_FN uint depositCounts(ivec3 cells) {
-    return cellsIn(cells) + 3U * cellsIn(fluxCubes(cells));
+    const uvec3 blocks = depositBlocks(cells);
+    return blocks.x * blocks.y * blocks.z * uint(BLOCK_CUBES * BLOCK_CUBES * BLOCK_CUBES * CUBE_COUNTS);
 }
 
 SHARED_END

@@ -34,6 +34,9 @@ using gpu::SpecConstant;
 /// The ring counts in 2⁻⁴² of the greatest flux that the first generation's lights may have: 2⁻²⁵ of a photon's power
 /// at 1e5 photons, and 2¹⁹ times the flux before saturation.
 constexpr int unitBits = 42;
+/// Of a record's 20 bits of power, given up where the ring then takes a generation of many photons as it is: without a
+/// ring generations then add up in one buffer, instead of a pass over all of it after each.
+constexpr int sparedBits = 4;
 /// Records that generations may leave together before the sum takes them: half of what requireCountable() allows.
 constexpr std::uint64_t settleBeyond = 1ULL << 37U;
 
@@ -83,7 +86,8 @@ struct PhotonMap::State {
     Program<shared::AccumulatePush> accumulateProgram;
     Program<shared::ReconstructPush> reconstructProgram;
 
-    Buffer moments, places, generation, oddGeneration, sum, saturated;
+    Buffer moments, places, generation, oddGeneration, saturated;
+    std::optional<Buffer> sum;  // from when there is something to add together
     gpu::Image fluences, radiance;
     std::vector<Buffer> slots;
     gpu::Commands commands;
@@ -106,6 +110,8 @@ struct PhotonMap::State {
     }
     void makeRoom(int unitExponent);
     void settle();
+    const Buffer& startedSum();
+    bool isAllUnsettled() const;
     const Buffer& target();
     double unsettledUnit() const;
     void recordAdd(const Buffer& from, const Buffer& to, int shift);
@@ -127,7 +133,6 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Cloud& preparedCl
       generation(context, "generation", coefficients * sizeof(std::int64_t), Memory::device),
       oddGeneration(context, "odd generation", options.keepHalves ? coefficients * sizeof(std::int64_t) : 0,
                     Memory::device),
-      sum(context, "ring sum", coefficients * sizeof(std::int64_t), Memory::device),
       saturated(context, "saturated", sizeof(std::uint32_t), Memory::host),
       fluences(collectorImage(context, "collector fluences", collectors)),
       radiance(collectorImage(context, "collector radiance", collectors)),
@@ -180,9 +185,26 @@ void PhotonMap::State::recordAdd(const Buffer& from, const Buffer& to, int shift
         shared::AccumulatePush{coefficients, shift, options.keepRing ? 1U : 0U}, linearGroups(coefficients, 64));
 }
 
+/// The sum, empty at first.
+const Buffer& PhotonMap::State::startedSum() {
+    if (sum) return *sum;
+    sum.emplace(context, "ring sum", coefficients * sizeof(std::int64_t), Memory::device);
+    commands.begin();
+    commands.fill(*sum, 0);
+    commands.submit();
+    commands.wait();
+    return *sum;
+}
+
+/// Whether `generation` is what the sum would become, bit by bit.
+bool PhotonMap::State::isAllUnsettled() const {
+    return unsettled && !sum && !options.keepHalves && shiftOf(*unsettled) >= 0;
+}
+
 /// Adds what was traced to the sum.
 void PhotonMap::State::settle() {
     if (!unsettled) return;
+    const Buffer& total = startedSum();
     saturated.mapped<std::uint32_t>()[0] = 0;
     const int shift = shiftOf(*unsettled);
     commands.begin();
@@ -192,7 +214,7 @@ void PhotonMap::State::settle() {
         recordAdd(oddGeneration, generation, 0);
         commands.barrier("halves joined");
     }
-    recordAdd(generation, sum, shift);
+    recordAdd(generation, total, shift);
     commands.submit();
     commands.wait();
     log.add(commands);
@@ -209,8 +231,8 @@ PhotonMap::PhotonMap(gpu::Context& context, const cloud::Cloud& cloud, const Med
     for (std::size_t i = 0; i < cloud.collectors.size(); ++i)
         places.emplace_back(cloud.collectors[i].centre, static_cast<float>(mass[i]));
     gpu::upload(context, s.places, places);
+    if (s.slots.empty()) return;
     s.commands.begin();
-    s.commands.fill(s.sum, 0);
     for (Buffer& slot : s.slots) s.commands.fill(slot, 0);
     s.commands.submit();
     s.commands.wait();
@@ -226,11 +248,13 @@ void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
     if (!emission.dark()) {
         const double most = std::max(maxChannel(emission.sunPower(s.options.photonsPerGeneration)),
                                      maxChannel(emission.skyPower(s.options.photonsPerGeneration)));
-        unitExponent = exponentAbove(most / static_cast<double>(shared::POWER_UNITS));
         if (!s.hasUnit) {
             s.baseExponent = exponentAbove(greatestFlux(sun, emission, s.tracer.faceArea())) - unitBits;
             s.hasUnit = true;
         }
+        unitExponent = exponentAbove(most / static_cast<double>(shared::POWER_UNITS));
+        const int finer = -s.shiftOf(unitExponent);
+        if (finer > 0 && finer <= sparedBits) unitExponent += finer;
         s.makeRoom(unitExponent);
         s.tracer.trace(emission, sun, unitExponent, static_cast<std::uint32_t>(s.traced), s.target(), s.counters,
                        s.unsettledRecords, s.log);
@@ -246,10 +270,12 @@ void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
 Light PhotonMap::light(Part part) {
     State& s = *state_;
     if (part == Part::all) {
-        s.settle();
         // Σ c over Σ M: equal extinctions give exactly the number of generations
         const double masses = std::accumulate(s.ringExtinctions.begin(), s.ringExtinctions.end(), 0.0);
-        return {&s.sum, unit() / (masses > 0.0 ? masses : 1.0)};
+        const double generations = masses > 0.0 ? masses : 1.0;
+        settle();
+        if (s.isAllUnsettled()) return {&s.generation, s.unsettledUnit() / generations};
+        return {&s.startedSum(), unit() / generations};
     }
     const bool even = part == Part::even;
     return {even ? &s.generation : &s.oddGeneration, s.unsettledUnit() / (even ? s.halves.even : s.halves.odd)};
@@ -273,7 +299,7 @@ void PhotonMap::reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, 
 }
 
 void PhotonMap::settle() {
-    state_->settle();
+    if (!state_->isAllUnsettled()) state_->settle();
 }
 
 const gpu::Image& PhotonMap::radiance() const {
@@ -319,7 +345,7 @@ double PhotonMap::unit() const {
 
 std::vector<std::int64_t> PhotonMap::downloadSum() {
     state_->settle();
-    auto values = gpu::download<std::int64_t>(state_->context, state_->sum);
+    auto values = gpu::download<std::int64_t>(state_->context, state_->startedSum());
     values.resize(state_->coefficients);
     return values;
 }

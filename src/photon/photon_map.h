@@ -72,7 +72,7 @@ class PhotonMap {
     /// Traces one generation into the oldest slot. Power of the lights: W·m⁻² (sun), W·m⁻²·sr⁻¹ (sky).
     void trace(const scene::Sun& sun, const scene::Sky& sky);
 
-    /// Adds what has been traced to the sum; so do reconstruct() and downloadSum().
+    /// Adds what has been traced to the sum, unless the sum would be a copy of the one buffer that holds it all.
     void settle();
 
     /// What the generations of a part have left; all of them are settled for it. A part needs `keepHalves` and a

@@ -110,7 +110,10 @@ class LightFieldTest : public test::VulkanTest, public testing::WithParamInterfa
 
     Grid<glm::vec4> filled(const cloud::CellGrid& cells, const cloud::Cloud& cloud) {
         std::vector<std::int64_t> counts(shared::depositCounts(cells.cells));
-        for (std::size_t cell = 0; cell < cells.count(); ++cell) counts[cell] = countIn(cell);
+        const Grid<double> numbers(cells.cells);
+        forEach(ivec3(0), cells.cells, [&](const ivec3& cell) {
+            counts[shared::cubePlace(cells.cells, cell) + shared::placeInCube(cell)] = countIn(numbers.index(cell));
+        });
         gpu::Buffer deposits(context, "deposits", counts.size() * sizeof(std::int64_t), gpu::Memory::device);
         gpu::upload(context, deposits, counts);
         const gpu::Image fluences = collectorImage(dvec4(0.0, 0.0, 0.0, fluence), cloud.collectors.size());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "gpu/transfer.h"
 #include "photon/photon_map.h"
 #include "support/cloud_cases.h"
 #include "support/photon_setup.h"
@@ -34,6 +35,12 @@ class PhotonRing : public test::VulkanTest {
     static void run(PhotonMap& map, int first, int last) {
         for (int generation = first; generation < last; ++generation)
             map.trace(sunAt(generation % slots), skyAt(generation % slots));
+    }
+    std::vector<double> watts(const Light& light) {
+        std::vector<double> values;
+        for (const std::int64_t count : gpu::download<std::int64_t>(context, *light.counts))
+            values.push_back(light.unit * static_cast<double>(count));
+        return values;
     }
     static std::vector<std::int64_t> sumOfSlots(const PhotonMap& map) {
         std::vector<std::int64_t> sum = map.downloadSlot(0);
@@ -78,6 +85,24 @@ TEST_F(PhotonRing, SumWithoutSlotsIsTheSame) {
     run(map, 0, slots);
     run(lean, 0, slots);
     EXPECT_EQ(lean.downloadSum(), map.downloadSum());
+}
+
+/// Where no generation goes, and all have one unit, they add up where they are traced: no sum, no pass for it. Also
+/// generations of so many photons that records as fine as they can be would be finer than the ring.
+TEST_F(PhotonRing, LightOfOneBufferIsThatOfTheRing) {
+    for (const std::uint64_t photons : {std::uint64_t{3000}, std::uint64_t{1} << 21U}) {
+        Options ring = options();
+        ring.photonsPerGeneration = photons;
+        Options one = ring;
+        one.keepRing = false;
+        PhotonMap map(context, cloud, medium, ring), lean(context, cloud, medium, one);
+        for (PhotonMap* each : {&map, &lean})
+            for (int generation = 0; generation < 2; ++generation) each->trace(sunAt(0), skyAt(0));
+        lean.settle();
+        for (const gpu::PassTime& pass : lean.times()) EXPECT_NE(pass.name, "accumulate") << photons << " photons";
+        EXPECT_EQ(watts(lean.light()), watts(map.light())) << photons << " photons";
+        EXPECT_EQ(lean.downloadSum(), map.downloadSum()) << photons << " photons";
+    }
 }
 
 TEST_F(PhotonRing, SameSeedSameBits) {
