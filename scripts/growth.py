@@ -28,28 +28,36 @@ def slope(xs, ys):
 
 
 def measure(lumulus, name, sets):
-    """Seconds of one part of the run, the less of two: the first may compile shaders."""
-    return min(lumulus.render(SCENE, lumulus.path("picture"), sets)["seconds"][name] for _ in range(2))
+    """Seconds of one part of the run and of all of it, the less of three: the first may compile shaders."""
+    runs = [lumulus.render(SCENE, lumulus.path("picture"), sets)["seconds"] for _ in range(3)]
+    return min(seconds[name] for seconds in runs), min(seconds["total"] for seconds in runs)
 
 
 def with_pixels(lumulus, widths, mode):
     few = ["photon_map.photons=100000", "photon_map.generations=1", f"draw.mode={mode}"]
-    return [(w * (w * 9 // 16), measure(lumulus, "draw", size_sets(w) + few)) for w in widths]
+    return [(w * (w * 9 // 16), *measure(lumulus, "draw", size_sets(w) + few)) for w in widths]
 
 
 def with_photons(lumulus, numbers):
-    return [(n, measure(lumulus, "trace", size_sets(64) + [f"photon_map.photons={n}", "photon_map.generations=10"]))
+    return [(n, *measure(lumulus, "trace", size_sets(64) + [f"photon_map.photons={n}", "photon_map.generations=10"]))
             for n in numbers]
+
+
+def figures_of(name, points):
+    """Of the part, and of the process as a whole."""
+    xs, parts, wholes = zip(*points)
+    return {name: {"points": list(zip(xs, parts)), "slope": slope(xs, parts), "last_slope": slope(xs[-2:], parts[-2:])},
+            f"{name}, process": {"points": list(zip(xs, wholes)), "slope": slope(xs, wholes),
+                                 "last_slope": slope(xs[-2:], wholes[-2:])}}
 
 
 def plot(figures, path):
     matplotlib.rcParams.update({"svg.hashsalt": "lumulus", "font.size": 9})
     picture, (left, right) = pyplot.subplots(1, 2, figsize=(9, 3.6))
-    for axes, names, title in ((left, ["march", "billboards"], "pixels"), (right, ["photons"], "photons")):
-        for name in names:
+    for axes, names, title in ((left, ["march", "billboards"], "pixels"), (right, ["tracing"], "photons")):
+        for name in (one for part in names for one in (part, f"{part}, process")):
             xs, ys = zip(*figures[name]["points"])
-            label = "tracing" if name == "photons" else name
-            axes.loglog(xs, ys, "o-", label=f"{label}: slope {figures[name]['slope']:.2f}")
+            axes.loglog(xs, ys, "o-", label=f"{name}: slope {figures[name]['slope']:.2f}")
         xs, ys = zip(*figures[names[0]]["points"])
         axes.loglog(xs, [ys[-1] * x / xs[-1] for x in xs], ":", color="grey", label="linear")
         axes.set_xlabel(title)
@@ -67,11 +75,11 @@ def main():
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True)
     options = parser.parse_args()
     lumulus = Lumulus(options)
-    figures = {mode: {"points": with_pixels(lumulus, options.widths, mode)} for mode in ("march", "billboards")}
-    figures["photons"] = {"points": with_photons(lumulus, [int(n) for n in options.photons])}
+    figures = {}
+    for mode in ("march", "billboards"):
+        figures |= figures_of(mode, with_pixels(lumulus, options.widths, mode))
+    figures |= figures_of("tracing", with_photons(lumulus, [int(n) for n in options.photons]))
     for name, found in figures.items():
-        found["slope"] = slope(*zip(*found["points"]))
-        found["last_slope"] = slope(*zip(*found["points"][-2:]))
         print(f"{name}: slope {found['slope']:.2f}, between the last two {found['last_slope']:.2f}: " +
               ", ".join(f"{x} in {y:.2f} s" for x, y in found["points"]), flush=True)
     plot(figures, options.output)

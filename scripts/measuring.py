@@ -22,11 +22,20 @@ class Failure(Exception):
     """A program that did not do its work: one line."""
 
 
+def started(words):
+    """The program with these words, its output and its complaints to be read."""
+    try:
+        return subprocess.Popen([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    except OSError as error:
+        raise Failure(f"{words[0]}: {error.strerror}; run scripts/build.sh first") from None
+
+
 def output_of(*words):
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise Failure((done.stderr.strip().splitlines() or [f"{words[0]} failed"])[-1])
-    return done.stdout
+    process = started(words)
+    said, complaint = process.communicate()
+    if process.returncode != 0:
+        raise Failure((complaint.strip().splitlines() or [f"{words[0]} failed"])[-1])
+    return said
 
 
 def with_sets(sets):
@@ -75,8 +84,7 @@ class Lumulus:
     def render(self, scene, output, sets=(), words=()):
         """Statistics of the picture, with the largest resident memory of the process as "rss_bytes"."""
         command = [self.program, "render", *self._scene_words(scene, sets), "-o", output, "--quiet", "--stats", "-", *words]
-        process = subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   text=True)
+        process = started(command)
         said = process.stdout.read()
         complaint = process.stderr.read()
         _, status, used = os.wait4(process.pid, 0)
