@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """A sheet of all shipped scenes: marched, billboards, reference and the difference of march and reference in false
 colours, each picture with its relMSE. Needs Debian's python3-pil and python3-numpy.
 

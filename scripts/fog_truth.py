@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The fog's filters against the path-traced truth: lamps and markings on a plain under homogeneous fog of optical depth
 1, 2, 4 and 8 at the middle of the picture, as in figure 8 of Elek, Ritschel and Seidel 2013.
 

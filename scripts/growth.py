@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Growth of time with pixels and with photons: a plot, and the slopes on doubly logarithmic paper (1: linear). Needs
 Debian's python3-matplotlib.
 

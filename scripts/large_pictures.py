@@ -14,7 +14,7 @@ import tempfile
 import time
 
 from large_score import layers_of, score, squares_of
-from measuring import ROOT, Failure, Lumulus, Table, finish, parser_of, run, size_sets
+from measuring import Failure, Lumulus, Table, finish, parser_of, run, size_sets
 
 import numpy
 
@@ -123,12 +123,10 @@ def main():
         raise Failure("--spp has to be 2 at least")
     lumulus = Lumulus(options)
     lumulus.sets += size_sets(options.width)
-    for scene in options.scenes:
-        if not (ROOT / f"configs/scenes/{scene}.toml").exists():
-            raise Failure(f"no scene {scene} in configs/scenes")
+    scenes = lumulus.scenes(options.scenes)
     table = Table(["scene", "optical depth", "interactive: relMSE, s (cold)", "the same, 8 M photons", "final",
                    "--target-error .003", "3e-3 after", "path tracer (a sample)", "ratio (cold)"])
-    for scene in lumulus.scenes(options.scenes):
+    for scene in scenes:
         found = measure(lumulus, scene, options.spp)
         table.add(found, texts_of(found))
     finish(options, table.figures)

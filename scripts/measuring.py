@@ -72,6 +72,10 @@ class Lumulus:
         self.sets = list(options.set)
 
     def scenes(self, wanted=None):
+        """Those that are wanted, or all that there is data for."""
+        for scene in wanted or []:
+            if not (ROOT / f"configs/scenes/{scene}.toml").exists():
+                raise Failure(f"no scene {scene} in configs/scenes")
         return [scene for scene in wanted or SCENES if scene != "disney-cloud" or self.vdb]
 
     def _scene_words(self, scene, sets):

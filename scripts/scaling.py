@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Time and memory against the number of voxels, of collectors and of photons: three Markdown tables on stdout.
 
     scripts/scaling.py --json build/scaling.json

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Scores of the quality presets in every shipped scene, or from cameras and under suns that are in none (--unseen):
 relMSE and bias against two independent references (which frees them of the references' noise), with the angle between the
 view and the direction to the sun, and whether the goals are met. References that are in the folder already are

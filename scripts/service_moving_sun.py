@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What a moving sun costs a stream that has a deadline: 320×180 of the cumulus with a budget of 33 ms, first under a sun
 that stands still, then under one that moves with every frame, then still again until the frames are whole.
 service_moving_sun.py [--seconds N] [--budget MS]

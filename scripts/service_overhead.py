@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What the frame service adds to a frame: bytes on the wire, and milliseconds from the last pass to the client, at
 1280×720 raw half, with the payload's hash and without, against a plain copy of the frame in memory.
 service_overhead.py [--frames N]

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Plane-parallel layers of known answer through the photon walk and the reference's tracer: a table of deviations in
 standard errors, of each seed (the largest) and of all seeds together.
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Writes the fuzzer's first inputs, one valid conversation a file: make_corpus.py FOLDER"""
 
 import json
