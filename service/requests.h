@@ -6,9 +6,9 @@
 #include <variant>
 #include <vector>
 
-#include "draw/picture_view.h"
 #include "scene/quality.h"
 #include "service/message.h"
+#include "view/view.h"
 
 namespace lumulus::service {
 

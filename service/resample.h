@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/image.h"
-#include "draw/picture_view.h"
+#include "view/view.h"
 
 namespace lumulus::service {
 

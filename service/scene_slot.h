@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "renderer.h"
+#include "render/renderer.h"
 #include "scene/scene.h"
 #include "service/config.h"
 #include "service/cost_model.h"

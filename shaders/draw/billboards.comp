@@ -8,17 +8,17 @@
 #include "lib/view.glsl"
 
 layout(local_size_x = 16, local_size_y = 4) in;
-layout(constant_id = 0) const bool ONE_TURN = false;
+layout(constant_id = 0) const bool FORWARD_CUT = false;
 layout(constant_id = 1) const bool SUN = true;      // the sun shines
 layout(constant_id = 2) const bool PHOTONS = true;  // there is a photon map
 layout(constant_id = 3) const bool GREY = false;     // the albedo is the same for all colours
 
 layout(binding = 0, scalar) readonly buffer Params { DrawParams storedParams; };
 layout(binding = 1, scalar) readonly buffer PhaseTable { float phaseTable[]; };
-layout(binding = 2, rgba32f) readonly uniform image2D oneTurnH;
-layout(binding = 3, rgba32f) readonly uniform image2D oneTurnK;
+layout(binding = 2, rgba32f) readonly uniform image2D singleScatterH;
+layout(binding = 3, rgba32f) readonly uniform image2D singleScatterK;
 layout(binding = 4) uniform sampler3D lightField;
-layout(binding = 5) uniform sampler3D sunDepth;
+layout(binding = 5) uniform sampler3D shadowVolume;
 layout(binding = 6, scalar) writeonly buffer Pixels { Pixel pixels[]; };
 // As images: their loads are by vectors on lavapipe, those from buffers by lanes.
 layout(binding = 7, rgba32f) readonly uniform image2D billboards;  // two texels each
@@ -32,7 +32,7 @@ layout(push_constant, scalar) uniform Push { DrawPush push; };
 DrawParams params;
 #include "lib/drawn_pixel.glsl"
 #include "lib/pixel.glsl"
-#include "lib/stretch.glsl"
+#include "lib/ray_segment.glsl"
 
 /// What a ray goes through of a billboard.
 struct Chord {
@@ -64,7 +64,7 @@ void addChord(inout RayLight ray, SunView sun, Chord chord, vec3 origin, vec3 di
     const float found = densityAt(density, middle, 1.0 / params.field.size);
     const float thickness = params.field.extinction * share * found * (chord.far - chord.near);
     const vec3 seen = voxelAlong(origin, direction, mix(chord.near, chord.far, seenAt(thickness, 0.5)));
-    addStretch(ray, sun, chord.near, chord.far, thickness, seen, SUN ? sunDepthAt(seen) : 0.0);
+    addSegment(ray, sun, chord.near, chord.far, thickness, seen, SUN ? depthToSun(seen) : 0.0);
 }
 
 /// Through the list from `next` to `last`. The billboard that is met next is looked for first and lit only then: lanes that

@@ -1,38 +1,38 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Pixels between the points of the lattice: a block where the picture hardly bends is interpolated bilinearly, any other is
+// Pixels between the points of the sampling: a block where the picture hardly bends is interpolated bilinearly, any other is
 // listed. What bends is the second difference from point to point, of which an eighth is the error of the interpolation.
 #include "shared/draw.h"
 
 layout(local_size_x = 64) in;
-/// Blocks that bend are not drawn pixel by pixel but looked at at half the spacing next (interpolate_halves.comp), to which
+/// Blocks that bend are not drawn pixel by pixel but looked at at half the spacing next (interpolate_refined.comp), to which
 /// the points half-way in other blocks are given too.
-layout(constant_id = 0) const bool HALVES = false;
+layout(constant_id = 0) const bool REFINES = false;
 
 layout(binding = 0, scalar) readonly buffer Params { DrawParams storedParams; };
-layout(binding = 1, rgba32f) readonly uniform imageBuffer lattice;
+layout(binding = 1, rgba32f) readonly uniform imageBuffer samplePoints;
 layout(binding = 2, scalar) writeonly buffer Pixels { Pixel pixels[]; };
 layout(binding = 3, scalar) buffer Blocks { uvec3 listGroups; uint listCount; uint listed[]; };
-layout(binding = 4, scalar) writeonly buffer Halves { Pixel halves[]; };
+layout(binding = 4, scalar) writeonly buffer Refined { Pixel refined[]; };
 layout(push_constant, scalar) uniform Push { InterpolatePush push; };
 
 DrawParams params;
-#include "lib/lattice.glsl"
+#include "lib/sparse_sampling.glsl"
 #include "lib/linear.glsl"
 
 int pointIndex(ivec2 point) {
-    const ivec2 place = clamp(point - params.lattice.first, ivec2(0), params.lattice.size - 1);
-    return place.y * params.lattice.size.x + place.x;
+    const ivec2 place = clamp(point - params.sampling.first, ivec2(0), params.sampling.size - 1);
+    return place.y * params.sampling.size.x + place.x;
 }
 
 Pixel pointAt(ivec2 point) {
     const int index = pointIndex(point);
-    return LOAD_PIXEL(lattice, index);
+    return LOAD_PIXEL(samplePoints, index);
 }
 
 Probe probeAt(ivec2 point) {
     const int index = PIXEL_TEXELS * pointIndex(point);
-    return probeOf(imageLoad(lattice, index), imageLoad(lattice, index + 1));
+    return probeOf(imageLoad(samplePoints, index), imageLoad(samplePoints, index + 1));
 }
 
 /// Second differences at point `i` of four by four, across and down together.
@@ -63,9 +63,9 @@ bool isSmooth(ivec2 block, Pixel corners[4]) {
     return within;
 }
 
-void storeHalf(ivec2 place, Pixel value) {
+void storeRefined(ivec2 place, Pixel value) {
     const int index = place.y * 2 * push.blocks.x + place.x;
-    STORE_PIXEL(halves, index, value);
+    STORE_PIXEL(refined, index, value);
 }
 
 void storePixel(ivec2 pixel, Pixel value) {
@@ -77,23 +77,23 @@ void storePixel(ivec2 pixel, Pixel value) {
 
 void main() {
     params = storedParams;
-    const int spacing = HALVES ? 4 : params.lattice.spacing;  // the loop below is unrolled then
+    const int spacing = REFINES ? 4 : params.sampling.spacing;  // the loop below is unrolled then
     const int index = int(linearInvocation(64u));
     if (index >= push.blocks.x * push.blocks.y) return;
     const ivec2 local = ivec2(index % push.blocks.x, index / push.blocks.x);
     const ivec2 block = push.firstBlock + local;
     const Pixel corners[4] = Pixel[4](pointAt(block), pointAt(block + ivec2(1, 0)), pointAt(block + ivec2(0, 1)),
                                       pointAt(block + 1));
-    if (HALVES) storeHalf(2 * local, corners[0]);
+    if (REFINES) storeRefined(2 * local, corners[0]);
     if (!isSmooth(block, corners) || meetsSun(block * spacing, spacing)) {
         list(block);
-        if (!HALVES) storePixel(block * spacing, withDisc(corners[0], block * spacing));
+        if (!REFINES) storePixel(block * spacing, withDisc(corners[0], block * spacing));
         return;
     }
     for (int i = 0; i < spacing * spacing; ++i) {
         const ivec2 part = ivec2(i % spacing, i / spacing);
         const Pixel pixel = blend(corners, vec2(part) / float(spacing));
         storePixel(block * spacing + part, pixel);
-        if (HALVES && i != 0 && all(equal(part & 1, ivec2(0)))) storeHalf(2 * local + part / 2, pixel);
+        if (REFINES && i != 0 && all(equal(part & 1, ivec2(0)))) storeRefined(2 * local + part / 2, pixel);
     }
 }

@@ -8,17 +8,17 @@
 #include "lib/view.glsl"
 
 layout(local_size_x = 16, local_size_y = 4) in;
-layout(constant_id = 0) const bool ONE_TURN = false;
+layout(constant_id = 0) const bool FORWARD_CUT = false;
 layout(constant_id = 1) const bool SUN = true;      // the sun shines
 layout(constant_id = 2) const bool PHOTONS = true;  // there is a photon map
 layout(constant_id = 3) const bool GREY = false;     // the albedo is the same for all colours
 
 layout(binding = 0, scalar) readonly buffer Params { DrawParams storedParams; };
 layout(binding = 1, scalar) readonly buffer PhaseTable { float phaseTable[]; };
-layout(binding = 2, rgba32f) readonly uniform image2D oneTurnH;
-layout(binding = 3, rgba32f) readonly uniform image2D oneTurnK;
+layout(binding = 2, rgba32f) readonly uniform image2D singleScatterH;
+layout(binding = 3, rgba32f) readonly uniform image2D singleScatterK;
 layout(binding = 4) uniform sampler3D lightField;
-layout(binding = 5) uniform sampler3D sunDepth;
+layout(binding = 5) uniform sampler3D shadowVolume;
 layout(binding = 6, scalar) writeonly buffer Pixels { Pixel pixels[]; };
 layout(binding = 7) uniform sampler3D density;
 layout(binding = 8, r32f) readonly uniform image3D majorants;  // normalised; negative: distances in empty space
@@ -29,7 +29,7 @@ layout(push_constant, scalar) uniform Push { DrawPush push; };
 DrawParams params;
 #include "lib/drawn_pixel.glsl"
 #include "lib/pixel.glsl"
-#include "lib/stretch.glsl"
+#include "lib/ray_segment.glsl"
 
 /// Optical thickness that a first step may have at most, by the cell's majorant.
 const float STEP_THICKNESS = 0.5;
@@ -88,7 +88,7 @@ void enterCell(inout Walk walk, ViewLine line, float end, float depth) {
     walk.begin = walk.leave;
     walk.leave = max(leaveCells(line, walk.cell, int(max(-majorant - 1.0, 0.0))), walk.begin);
     const float span = min(walk.leave, end) - walk.begin;
-    const float growth = min(exp(GROWTH * leastDecay() * depth), MOST_GROWTH);
+    const float growth = min(exp(GROWTH * leastExtinctionScale() * depth), MOST_GROWTH);
     const float thickest = majorant * params.field.extinction / STEP_THICKNESS;
     const float steps = ceil(span * max(1.0 / params.field.voxelLength, thickest) / growth);
     walk.count = majorant > 0.0 && span > 0.0 ? clamp(steps, 1.0, 512.0) : 0.0;
@@ -123,7 +123,7 @@ RayLight march(vec3 origin, vec3 direction, float offset) {
             const float near = walk.begin + (walk.done - 1.0) * walk.step;
             const float thickness = found * params.field.extinction * walk.step;
             const vec3 seen = line.start + line.velocity * (near + seenAt(thickness, offset) * walk.step);
-            addStretch(ray, sun, near, near + walk.step, thickness, seen, SUN ? sunDepthAt(seen) : 0.0);
+            addSegment(ray, sun, near, near + walk.step, thickness, seen, SUN ? depthToSun(seen) : 0.0);
         }
         more = more && ray.depth < opaque;
     }

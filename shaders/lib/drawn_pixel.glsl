@@ -15,22 +15,22 @@ ivec2 placeDrawn() {
 
 /// The pixel, and where it is stored; false where this invocation has none.
 bool drawnPixel(out ivec2 pixel, out int slot) {
-    const LatticeParams lattice = params.lattice;
+    const SamplingGrid sampling = params.sampling;
     ivec2 place = placeDrawn();
-    if (push.what == DRAW_SQUARES || push.what == DRAW_HALVES) {
+    if (push.what == DRAW_SQUARES || push.what == DRAW_REFINED) {
         const uint index = gl_WorkGroupID.x * uint(LISTED_GROUP) + gl_LocalInvocationIndex / 3u;
         const int part = int(gl_LocalInvocationIndex % 3u) + 1;
         if (index >= blockCount || gl_LocalInvocationIndex / 3u >= uint(LISTED_GROUP)) return false;
         pixel = 2 * squareAt(blocks[index]) + ivec2(part & 1, part >> 1);
         place = pixel - push.first;
-        if (push.what == DRAW_HALVES) pixel *= 2;
+        if (push.what == DRAW_REFINED) pixel *= 2;
     } else {
-        pixel = (push.first + place) * (push.what == DRAW_LATTICE ? lattice.spacing : 1);
+        pixel = (push.first + place) * (push.what == DRAW_SPARSE ? sampling.spacing : 1);
     }
     slot = place.y * push.count.x + place.x;
-    if (push.what == DRAW_LATTICE) {
-        const ivec2 point = push.first + place - lattice.first;
-        slot = point.y * lattice.size.x + point.x;
+    if (push.what == DRAW_SPARSE) {
+        const ivec2 point = push.first + place - sampling.first;
+        slot = point.y * sampling.size.x + point.x;
     }
     return all(greaterThanEqual(place, ivec2(0))) && all(lessThan(place, push.count));
 }

@@ -1,10 +1,10 @@
-// What a photon leaves where it turns: a record for the collector of that place, and deposits in the cells around it.
+// What a photon leaves where it turns: a record for the collector of that place, and estimates in the cells around it.
 // It brings its bindings along: trace.comp walks, this file alone writes light.
 #ifndef LUMULUS_LIB_STORE
 #define LUMULUS_LIB_STORE
 
 #extension GL_EXT_shader_atomic_int64 : require
-#include "shared/deposits.h"
+#include "shared/collision_estimator.h"
 #include "shared/photon.h"
 #include "lib/luminance.glsl"
 #include "lib/packing.glsl"
@@ -12,15 +12,15 @@
 layout(binding = 1) uniform usampler3D collectorIndex;
 layout(binding = 6, scalar) writeonly buffer Records { PhotonRecord records[]; };
 layout(binding = 8, scalar) buffer CollectorCounts { uint collectorCounts[]; };  // records of each collector
-layout(binding = 10, scalar) buffer Deposits { int64_t deposits[]; };
+layout(binding = 10, scalar) buffer CollisionEstimates { int64_t estimates[]; };
 
 /// `amount` in counts of the coefficients, luminance.
-void deposit(TraceParams params, vec3 voxel, vec3 direction, float amount) {
-    const ivec3 cell = min(ivec3(voxel) / params.depositEdge, params.depositCells - 1);
-    const uint cube = params.depositBase + cubePlace(params.depositCells, cell);
-    atomicAdd(deposits[cube + placeInCube(cell)], int64_t(roundEven(amount)));
+void addEstimate(TraceParams params, vec3 voxel, vec3 direction, float amount) {
+    const ivec3 cell = min(ivec3(voxel) / params.estimatorEdge, params.estimatorCells - 1);
+    const uint cube = params.estimatorBase + cubePlace(params.estimatorCells, cell);
+    atomicAdd(estimates[cube + placeInCube(cell)], int64_t(roundEven(amount)));
     for (int axis = 0; axis < 3; ++axis)
-        atomicAdd(deposits[cube + uint(CUBE_CELLS + axis)], int64_t(roundEven(amount * direction[axis])));
+        atomicAdd(estimates[cube + uint(CUBE_CELLS + axis)], int64_t(roundEven(amount * direction[axis])));
 }
 
 /// Light of this power [record units] that travels in a direction, at a place, as record number `place`. False: no
@@ -29,7 +29,7 @@ bool store(TraceParams params, vec3 voxel, vec3 direction, vec3 power, uint plac
     const uint collector = texelFetch(collectorIndex, ivec3(min(voxel, params.size - 0.5)), 0).r;
     if (collector >= params.collectors) return false;
     records[place] = PhotonRecord(collector, packDirection(direction), packPower(power));
-    if (params.depositEdge > 0) deposit(params, voxel, direction, COEFFICIENT_SCALE * luminance(power));
+    if (params.estimatorEdge > 0) addEstimate(params, voxel, direction, COEFFICIENT_SCALE * luminance(power));
     atomicAdd(collectorCounts[collector], 1u);
     return true;
 }

@@ -1,6 +1,6 @@
-// The sun's light with one turn, per unit of σs and irradiance (one_turn.h has the formula). The includer declares the
-// buffer PhaseTable, the tables oneTurnH and oneTurnK as pictures (optical depth across, angle down) and the constant
-// ONE_TURN: whether the forward peak is cut, and GREY: whether decay and tables are the same for all colours.
+// The sun's light with one turn, per unit of σs and irradiance (single_scattering.h has the formula). The includer declares the
+// buffer PhaseTable, the tables singleScatterH and singleScatterK as pictures (optical depth across, angle down) and the constant
+// FORWARD_CUT: whether the forward peak is cut, and GREY: whether extinctionScale and tables are the same for all colours.
 #ifndef LUMULUS_LIB_SUN_SOURCE
 #define LUMULUS_LIB_SUN_SOURCE
 
@@ -8,8 +8,8 @@
 #include "shared/phase_table.h"
 #include "lib/disc.glsl"
 
-/// exp of a multiple of the decay; one exponential where the albedo is grey.
-vec3 decayed(vec3 x) { return GREY ? vec3(exp(x.x)) : exp(x); }
+/// exp of a multiple of the extinctionScale; one exponential where the albedo is grey.
+vec3 expScaled(vec3 x) { return GREY ? vec3(exp(x.x)) : exp(x); }
 
 /// What of the sun's light depends on the view direction alone.
 struct SunView {
@@ -22,7 +22,7 @@ SunView sunView(LightParams light, vec3 viewDirection) {
     const float axis = angleToAxis(angle, light.angleScale);
     const TableCell cell = tableCell(axis, phaseTableSize);
     return SunView(exp(mix(phaseTable[cell.base], phaseTable[cell.base + 1], cell.fraction)),
-                   tableCell(axis, oneTurnAngleCount));
+                   tableCell(axis, singleScatterAngleCount));
 }
 
 /// Between the corners that a texel of a one-turn table holds.
@@ -34,20 +34,20 @@ float betweenCorners(vec4 corners, vec2 place) {
 /// A look-up of `sun` at `depth`, a TableCell. An image cannot be handed to a function.
 #define IN_CELL(table, depth, texel) \
     betweenCorners(imageLoad(table, ivec2(texel, sun.angle.base)), vec2(depth.fraction, sun.angle.fraction))
-#define ONE_TURN_AT(table, depth)                                                                      \
+#define SINGLE_SCATTER_AT(table, depth)                                                                      \
     (GREY ? vec3(IN_CELL(table, depth, depth.base))                                                    \
           : vec3(IN_CELL(table, depth, 3 * depth.base), IN_CELL(table, depth, 3 * depth.base + 1),     \
                  IN_CELL(table, depth, 3 * depth.base + 2)))
 
-/// H(τs,θ) and K(τ,θ) without their decay e^−κτ.
-vec3 oneTurnBefore(SunView sun, LightParams light, float tau) {
-    const TableCell depth = tableCell(tauToAxis(tau, light.tauMaximum), oneTurnTauCount);
-    return ONE_TURN_AT(oneTurnH, depth);
+/// H(τs,θ) and K(τ,θ) without their extinctionScale e^−κτ.
+vec3 singleScatterBefore(SunView sun, LightParams light, float tau) {
+    const TableCell depth = tableCell(tauToAxis(tau, light.tauMaximum), singleScatterTauCount);
+    return SINGLE_SCATTER_AT(singleScatterH, depth);
 }
 
-vec3 oneTurnAfter(SunView sun, LightParams light, float tau) {
-    const TableCell depth = tableCell(tauToAxis(tau, light.tauMaximum), oneTurnTauCount);
-    return ONE_TURN_AT(oneTurnK, depth);
+vec3 singleScatterAfter(SunView sun, LightParams light, float tau) {
+    const TableCell depth = tableCell(tauToAxis(tau, light.tauMaximum), singleScatterTauCount);
+    return SINGLE_SCATTER_AT(singleScatterK, depth);
 }
 
 /// Radiance that a stretch of optical thickness `thickness`, seen through `tauView` and lit through `tauSun`, sends to
@@ -56,12 +56,12 @@ vec3 sunScattered(SunView sun, LightParams light, float tauSun, float tauView, f
     // 1 − e^−x without cancellation for thin stretches
     const float filled = thickness < 1.0e-3 ? thickness * (1.0 - 0.5 * thickness) : 1.0 - exp(-thickness);
     vec3 source = vec3(sun.phase * exp(-tauSun - tauView) * filled);
-    if (ONE_TURN) {
-        source += oneTurnBefore(sun, light, tauSun) * decayed(-light.decay * tauSun) * (exp(-tauView) * filled);
-        const vec3 scaled = light.decay * thickness;
-        const vec3 held = mix((1.0 - decayed(-scaled)) / max(light.decay, 1.0e-6), vec3(thickness), lessThan(scaled, vec3(1.0e-3)));
-        source += oneTurnAfter(sun, light, tauSun + tauView + 0.5 * min(thickness, 1.0)) *
-                  decayed(-light.decay * (tauSun + tauView)) * held;
+    if (FORWARD_CUT) {
+        source += singleScatterBefore(sun, light, tauSun) * expScaled(-light.extinctionScale * tauSun) * (exp(-tauView) * filled);
+        const vec3 scaled = light.extinctionScale * thickness;
+        const vec3 held = mix((1.0 - expScaled(-scaled)) / max(light.extinctionScale, 1.0e-6), vec3(thickness), lessThan(scaled, vec3(1.0e-3)));
+        source += singleScatterAfter(sun, light, tauSun + tauView + 0.5 * min(thickness, 1.0)) *
+                  expScaled(-light.extinctionScale * (tauSun + tauView)) * held;
     }
     return light.albedo * light.sunIrradiance * source;
 }

@@ -14,7 +14,7 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool ANALYTIC_PHASE = true;
-layout(constant_id = 1) const bool TURNS_ONLY = false;  // the forward peak is cut: some collisions go straight on
+layout(constant_id = 1) const bool FORWARD_CUT = false;  // the forward peak is cut: some collisions go straight on
 layout(constant_id = 2) const bool ABSORBS = false;     // an albedo below 1
 layout(constant_id = 3) const bool PERIODIC = false;    // a plane-parallel layer across y
 
@@ -37,7 +37,7 @@ vec4 draw(inout TraceState state) {
 }
 
 ScatterAngle samplePhase(float u) {
-    if (ANALYTIC_PHASE) return sampleHg(params.asymmetry, u, params.turnFraction);
+    if (ANALYTIC_PHASE) return sampleHg(params.asymmetry, u, params.scatterFraction);
     const TableCell cell = inverseCdfCell(u);
     return angleFromOneMinusCos(mix(inverseCdf[cell.base], inverseCdf[cell.base + 1], cell.fraction));
 }
@@ -62,7 +62,7 @@ bool survives(inout TraceState state, vec3 factor, float u) {
 /// A real collision. False: the photon has ended. `turns`: whether it goes on in another direction.
 bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint count, out bool turns) {
     ++state.collisions;
-    turns = !TURNS_ONLY || u.x < params.turnShare;
+    turns = !FORWARD_CUT || u.x < params.scatterShare;
     if (!turns) return survives(state, params.straightWeight, u.y);
     // The sun's first turn is drawn from the optical depths to the sun, not from the map (docs/architecture.md).
     const bool ofSun = state.photon < params.sunPhotons;

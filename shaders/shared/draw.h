@@ -31,9 +31,9 @@ struct LightParams {
     float sunCone;  // 1 − cos of its angular radius
     vec3 skyRadiance;
     vec3 albedo;
-    vec3 decay;        // κ = 1 − ω f: optical depth of the turned light per true optical depth
-    float turnShare;   // 1 − f
-    float angleScale;  // axes of the phase tables
+    vec3 extinctionScale;  // κ = 1 − ω f: optical depth of the turned light per true optical depth
+    float scatterShare;    // 1 − f
+    float angleScale;      // axes of the phase tables
     float tauMaximum;
 };
 
@@ -47,12 +47,12 @@ struct FieldParams {
     float extinction;    // σt at density 1 [1/m]
     float voxelLength;   // metres: the finest step of a march
     vec3 radianceScale;  // voxel → texture coordinates of the in-scattered radiance
-    mat3 voxelToSun;     // voxel → texture coordinates of the optical depth to the sun
-    vec3 sunOffset;
+    mat3 voxelToShadow;  // voxel → texture coordinates of the optical depth to the sun
+    vec3 shadowOffset;
 };
 
 /// Points at every `spacing`th pixel of every `spacing`th row of the whole picture; those that a tile needs.
-struct LatticeParams {
+struct SamplingGrid {
     ivec2 first;  // point
     ivec2 size;
     int spacing;
@@ -64,19 +64,19 @@ struct DrawParams {
     ViewParams view;
     LightParams light;
     FieldParams field;
-    LatticeParams lattice;
+    SamplingGrid sampling;
     int tilesAcross;
     int samples;  // rays a pixel, along each side: a grid of them where pixels are larger than voxels
 };
 
-/// Which pixels a dispatch draws: a rectangle of them; a rectangle of lattice points; of a rectangle the pixels in
+/// Which pixels a dispatch draws: a rectangle of them; a rectangle of sampling points; of a rectangle the pixels in
 /// listed squares of two by two; or, of a rectangle of every second pixel of every second row, those in listed blocks
-/// (four by four pixels, from a lattice point to the next ones). In squares and blocks the first pixel is known and
+/// (four by four pixels, from a sampling point to the next ones). In squares and blocks the first pixel is known and
 /// left out.
 const int DRAW_PIXELS = 0;
-const int DRAW_LATTICE = 1;
+const int DRAW_SPARSE = 1;
 const int DRAW_SQUARES = 2;
-const int DRAW_HALVES = 3;
+const int DRAW_REFINED = 3;
 /// Squares or blocks of which a workgroup (16×4 invocations) draws three pixels each.
 const int LISTED_GROUP = 21;
 
@@ -86,7 +86,7 @@ struct DrawPush {
     ivec2 count;
 };
 
-/// Pixels that are interpolated, and blocks from lattice point to lattice point that are looked at for them.
+/// Pixels that are interpolated, and blocks from sampling point to sampling point that are looked at for them.
 struct InterpolatePush {
     ivec2 first;  // pixel
     ivec2 count;
@@ -119,7 +119,7 @@ struct Pixel {
 const int PIXEL_TEXELS = 3;
 
 /// Grid of optical depth towards the sun, its third axis along the light.
-struct SunDepthPush {
+struct ShadowVolumePush {
     mat3 gridToVoxel;  // per texel
     vec3 originVoxel;  // voxel coordinates of the middle of texel (0,0,0)
     vec3 inverseSize;  // of the density volume
@@ -150,27 +150,27 @@ struct LightFieldPush {
 struct LightCountsPush {
     ivec3 size;  // voxels
     ivec3 grid;  // cells
-    ivec3 depositCells;
-    int depositsAcross;  // cells of the deposits along an edge of a cell
-    uint depositBase;
-    float depositScale;  // counts → W
-    float massScale;     // ∫ normalised density [voxels] → ∫ σt' dV [m²]
-    float photon;        // mean luminance of a photon [W]
-    float moment;        // of the phase function, of band 1
-    uint occupied;       // cells with density, the first of the list
+    ivec3 estimatorCells;
+    int estimatorAcross;  // cells of the estimates along an edge of a cell
+    uint estimatorBase;
+    float estimatorScale;  // counts → W
+    float massScale;       // ∫ normalised density [voxels] → ∫ σt' dV [m²]
+    float photon;          // mean luminance of a photon [W]
+    float moment;          // of the phase function, of band 1
+    uint occupied;         // cells with density, the first of the list
 };
 
 #ifdef __cplusplus
 // Scalar layout, as SPIR-V has it; tests/unit/shared_layout_test.cpp compares every member.
 static_assert(sizeof(ViewParams) == 56 && offsetof(ViewParams, projection) == 52);
 static_assert(sizeof(LightParams) == 88 && offsetof(LightParams, tauMaximum) == 84);
-static_assert(sizeof(FieldParams) == 152 && offsetof(FieldParams, sunOffset) == 140);
-static_assert(sizeof(LatticeParams) == 28 && offsetof(LatticeParams, depthTolerance) == 24);
+static_assert(sizeof(FieldParams) == 152 && offsetof(FieldParams, shadowOffset) == 140);
+static_assert(sizeof(SamplingGrid) == 28 && offsetof(SamplingGrid, depthTolerance) == 24);
 static_assert(sizeof(DrawParams) == 332 && offsetof(DrawParams, samples) == 328);
 static_assert(sizeof(DrawPush) == 20 && offsetof(DrawPush, count) == 12);
 static_assert(sizeof(InterpolatePush) == 32 && offsetof(InterpolatePush, blocks) == 24);
 static_assert(sizeof(Pixel) == 16 * PIXEL_TEXELS && offsetof(Pixel, unused) == 40);
-static_assert(sizeof(SunDepthPush) == 80 && offsetof(SunDepthPush, firstRow) == 76);
+static_assert(sizeof(ShadowVolumePush) == 80 && offsetof(ShadowVolumePush, firstRow) == 76);
 static_assert(sizeof(BillboardMeanPush) == 52 && offsetof(BillboardMeanPush, spheres) == 48);
 static_assert(sizeof(LightFieldPush) == 84 && offsetof(LightFieldPush, lit) == 80);
 static_assert(sizeof(LightCountsPush) == 64 && offsetof(LightCountsPush, occupied) == 60);

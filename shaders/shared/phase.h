@@ -90,14 +90,14 @@ SHARED_FN float droplet(vec4 fit, ScatterAngle angle) {
 }
 
 /// An angle distributed as Henyey–Greenstein, −1 < g < 1, u uniform in [0,1), from the stable inversion: no branch near
-/// g = 0 and |cos θ| never above 1. Restricted to θ ≥ θc where `turnFraction` = P(θ ≥ θc) (1: not restricted).
-SHARED_FN ScatterAngle sampleHg(float g, float u, float turnFraction) {
+/// g = 0 and |cos θ| never above 1. Restricted to θ ≥ θc where `scatterFraction` = P(θ ≥ θc) (1: not restricted).
+SHARED_FN ScatterAngle sampleHg(float g, float u, float scatterFraction) {
     // u runs from backward to forward for g ≥ 0; a backward lobe is the mirror image, and there the cut takes low u
     // away
     bool backward = g < 0.0F;
     float a = abs(g);
-    float w = backward ? turnFraction * (1.0F - u) : 1.0F - turnFraction * u;
-    u = backward ? 1.0F - w : turnFraction * u;
+    float w = backward ? scatterFraction * (1.0F - u) : 1.0F - scatterFraction * u;
+    u = backward ? 1.0F - w : scatterFraction * u;
     float d = (1.0F - a) + 2.0F * a * u;
     float minus = (1.0F - a) / d;
     float plus = (1.0F + a) / d;

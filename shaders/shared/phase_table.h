@@ -9,10 +9,10 @@
 
 SHARED_BEGIN
 
-const int inverseCdfCells = 1024;   // the table has one entry more
-const int phaseTableSize = 2048;    // entries along the angle
-const int oneTurnAngleCount = 512;  // entries along the angle
-const int oneTurnTauCount = 128;    // entries along the optical depth, which runs fastest, but for the channel
+const int inverseCdfCells = 1024;         // the table has one entry more
+const int phaseTableSize = 2048;          // entries along the angle
+const int singleScatterAngleCount = 512;  // entries along the angle
+const int singleScatterTauCount = 128;    // entries along the optical depth, which runs fastest, but for the channel
 
 /// Where a value lies between entries base and base + 1.
 struct TableCell {
@@ -56,9 +56,9 @@ SHARED_FN TableCell inverseCdfCell(float u) {
 }
 
 /// Index of (angle, optical depth) of the red entry of a one-turn table; green and blue follow, and the next optical
-/// depth is 3 further, the next angle 3·oneTurnTauCount.
-SHARED_FN int oneTurnIndex(int angle, int tau) {
-    return 3 * (angle * oneTurnTauCount + tau);
+/// depth is 3 further, the next angle 3·singleScatterTauCount.
+SHARED_FN int singleScatterIndex(int angle, int tau) {
+    return 3 * (angle * singleScatterTauCount + tau);
 }
 
 SHARED_END

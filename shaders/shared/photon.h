@@ -22,21 +22,21 @@ SHARED_FN ivec2 collectorTexel(uint collector) {
 
 /// How photons move through the cloud. Lengths are metres; `power` is in record units.
 struct TraceParams {
-    mat3 worldToCells;  // directions: cells per metre
-    vec3 size;          // voxels
-    ivec3 cells;        // of the majorant grid
-    vec3 cellSize;      // voxels per cell
-    float extinction;   // collision coefficient at density 1 [1/m]: σt(1 − f·min albedo)
-    float turnShare;    // probability that a collision is a turn
+    mat3 worldToCells;   // directions: cells per metre
+    vec3 size;           // voxels
+    ivec3 cells;         // of the majorant grid
+    vec3 cellSize;       // voxels per cell
+    float extinction;    // collision coefficient at density 1 [1/m]: σt(1 − f·min albedo)
+    float scatterShare;  // probability that a collision is a turn
     vec3 albedo;
-    vec3 straightWeight;  // weight of light that goes straight on at a collision
-    float turnFraction;   // 1 − f: what phase sampling is restricted to
-    float asymmetry;      // g of the analytic sampler
-    vec3 sunDirection;    // of travel
-    float sunCone;        // 1 − cos of the disc's angular radius
-    vec3 faceArea[3];     // area vectors of the box's faces across x, y, z [m²]
-    vec3 faceSize;        // their lengths
-    float sunThrough;     // area of the box that the middle of the sun's disc sees [m²]
+    vec3 straightWeight;    // weight of light that goes straight on at a collision
+    float scatterFraction;  // 1 − f: what phase sampling is restricted to
+    float asymmetry;        // g of the analytic sampler
+    vec3 sunDirection;      // of travel
+    float sunCone;          // 1 − cos of the disc's angular radius
+    vec3 faceArea[3];       // area vectors of the box's faces across x, y, z [m²]
+    vec3 faceSize;          // their lengths
+    float sunThrough;       // area of the box that the middle of the sun's disc sees [m²]
     vec3 sunPower;
     vec3 skyPower;
     uint sunPhotons;  // the first ones of a generation
@@ -48,9 +48,9 @@ struct TraceParams {
     uint recordCapacity;  // of one invocation
     uint stepLimit;       // of one dispatch
     uint collisionLimit;  // of one photon
-    uint depositBase;     // where the cells follow the collectors' coefficients
-    int depositEdge;      // of a cell, voxels; 0: none
-    ivec3 depositCells;
+    uint estimatorBase;   // where the cells follow the collectors' coefficients
+    int estimatorEdge;    // of a cell, voxels; 0: none
+    ivec3 estimatorCells;
 };
 
 /// A photon between two dispatches.
@@ -111,7 +111,7 @@ struct ReconstructPush {
 
 #ifdef __cplusplus
 // Scalar layout, as SPIR-V has it; tests/unit/shared_layout_test.cpp compares every member.
-static_assert(sizeof(TraceParams) == 260 && offsetof(TraceParams, depositCells) == 248);
+static_assert(sizeof(TraceParams) == 260 && offsetof(TraceParams, estimatorCells) == 248);
 static_assert(sizeof(TraceState) == 72 && offsetof(TraceState, alive) == 68);
 static_assert(sizeof(PhotonRecord) == 16 && offsetof(PhotonRecord, power) == 8);
 static_assert(sizeof(TraceCounters) == 80 && offsetof(TraceCounters, unused) == 76);

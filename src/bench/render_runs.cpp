@@ -4,7 +4,7 @@
 
 #include "base/interrupt.h"
 #include "bench/plan.h"
-#include "renderer.h"
+#include "render/renderer.h"
 
 namespace lumulus::bench {
 namespace {

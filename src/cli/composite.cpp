@@ -13,10 +13,10 @@
 #include "base/version.h"
 #include "cli/output.h"
 #include "cli/stats_json.h"
-#include "draw/camera.h"
-#include "fog/depth.h"
-#include "fog/fog.h"
+#include "fog/screen/depth.h"
+#include "fog/screen/fog.h"
 #include "scene/load.h"
+#include "view/camera.h"
 
 namespace lumulus::cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "photon/slab.h"
+#include "light/photon/slab.h"
 
 namespace lumulus::cli {
 

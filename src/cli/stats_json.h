@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "renderer.h"
+#include "render/renderer.h"
 
 namespace lumulus::cli {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "draw/picture_view.h"
+#include "view/view.h"
 
 namespace lumulus::draw {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "draw/frame.h"
+#include "draw/drawing.h"
 #include "gpu/commands.h"
 #include "gpu/groups.h"
 #include "shared/draw.h"
@@ -39,7 +39,7 @@ std::vector<float> billboardShares(gpu::Context& context, const cloud::Cloud& cl
     for (const cloud::Collector& collector : cloud.collectors)
         spheres.emplace_back(collector.centre, billboardRadius(cloud, collector));
     const gpu::Program<shared::BillboardMeanPush> program(context, "billboard_mean", spirv::billboard_mean_comp);
-    const gpu::Buffer input = filledBuffer(context, "billboard spheres", spheres);
+    const gpu::Buffer input = gpu::filledBuffer(context, "billboard spheres", spheres);
     const gpu::Buffer means(context, "billboard means", count * sizeof(float), gpu::Memory::host);
     gpu::Commands commands(context);
     commands.begin();

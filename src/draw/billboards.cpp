@@ -75,7 +75,7 @@ void Billboards::prepare(const Camera& camera) {
     const std::vector<shared::Billboard> billboards = makeBillboards(cloud_, shares_, camera);
     tiles_ = makeTileLists(camera, billboards);
     billboards_.emplace(listImage(context_, "billboards", billboardTexels(billboards), VK_FORMAT_R32G32B32A32_SFLOAT));
-    offsets_ = filledBuffer(context_, "tile offsets", tiles_.offsets);
+    offsets_ = gpu::filledBuffer(context_, "tile offsets", tiles_.offsets);
     lists_.emplace(listImage(context_, "tile lists", tiles_.lists, VK_FORMAT_R32_UINT));
 }
 

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "cloud/cloud.h"
-#include "draw/camera.h"
-#include "draw/frame.h"
+#include "draw/drawing.h"
 #include "draw/tiles.h"
 #include "gpu/commands.h"
 #include "shared/draw.h"
+#include "view/camera.h"
 
 namespace lumulus::draw {
 

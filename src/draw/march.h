@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cloud/cloud.h"
-#include "draw/frame.h"
+#include "draw/drawing.h"
 
 namespace lumulus::draw {
 

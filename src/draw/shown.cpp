@@ -20,7 +20,8 @@ struct Rectangle {
 std::optional<Rectangle> project(const Camera& camera, std::span<const glm::dvec3> points, double reach) {
     const bool parallel = camera.projection == scene::Projection::orthographic;
     const double halfHeight = parallel ? 0.5 * camera.orthographicHeight : camera.tanHalfFov;
-    const glm::dvec2 half(halfHeight * camera.width / camera.height * (parallel ? 1.0 : camera.stretch), halfHeight);
+    const glm::dvec2 half(halfHeight * camera.width / camera.height * (parallel ? 1.0 : camera.pixelAspect),
+                          halfHeight);
     const glm::dmat3 toCamera = glm::transpose(camera.axes);
     Rectangle plane;
     for (const glm::dvec3& point : points) {

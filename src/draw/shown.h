@@ -1,6 +1,6 @@
 #pragma once
 
-#include "draw/picture_view.h"
+#include "view/view.h"
 
 namespace lumulus::draw {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "draw/lattice.h"
+#include "draw/sparse_sampling.h"
 
 namespace lumulus::draw {
 
@@ -139,7 +139,7 @@ int widestEdge(const TileLists& tiles) {
 
 TileLists makeTileLists(const Camera& camera, const std::vector<shared::Billboard>& billboards) {
     TileLists tiles;
-    // the last points of a lattice may lie beyond the picture
+    // the last points of a sampling may lie beyond the picture
     tiles.across = (camera.width + widestSpacing - 2) / shared::TILE_EDGE + 1;
     tiles.down = (camera.height + widestSpacing - 2) / shared::TILE_EDGE + 1;
     const auto total = static_cast<std::size_t>(tiles.across) * static_cast<std::size_t>(tiles.down);

@@ -4,8 +4,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "draw/camera.h"
 #include "shared/draw.h"
+#include "view/camera.h"
 
 namespace lumulus::draw {
 

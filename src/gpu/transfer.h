@@ -31,4 +31,12 @@ std::vector<T> download(Context& context, const From& from) {
     return values;
 }
 
+/// A device buffer with these contents.
+template <class Values>
+Buffer filledBuffer(Context& context, const char* name, const Values& values) {
+    Buffer buffer(context, name, values.size() * sizeof(values[0]), Memory::device);
+    if (!values.empty()) upload(context, buffer, values);
+    return buffer;
+}
+
 }  // namespace lumulus::gpu

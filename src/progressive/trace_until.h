@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/progress.h"
-#include "renderer.h"
+#include "render/renderer.h"
 
 namespace lumulus::progressive {
 

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "draw/camera.h"
 #include "reference/medium.h"
 #include "reference/phase.h"
 #include "reference/random.h"
 #include "scene/fog.h"
+#include "view/camera.h"
 
 namespace lumulus::reference {
 

@@ -13,7 +13,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double longestPath = 1e200;
 
 /// (1 − e^{−x})/x for x ≥ 0.
-double meanDecay(double x) {
+double meanFallOff(double x) {
     return x > 0.0 ? -std::expm1(-x) / x : 1.0;
 }
 
@@ -67,7 +67,7 @@ double FogDensity::metresTo(double path) const {
 /// From the denser end, so that no factor overflows where the integral does not.
 double FogDensity::exponentialPath(double length) const {
     const double rise = slope_ * length;
-    return std::exp(-(exponent_ + std::min(0.0, rise))) * length * meanDecay(std::abs(rise));
+    return std::exp(-(exponent_ + std::min(0.0, rise))) * length * meanFallOff(std::abs(rise));
 }
 
 double FogDensity::exponentialLength(double path) const {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "draw/camera.h"
 #include "vdb/volume.h"
+#include "view/camera.h"
 
 namespace lumulus::reference {
 

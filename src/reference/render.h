@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <functional>
 
-#include "draw/camera.h"
 #include "reference/film.h"
 #include "reference/tracer.h"
+#include "view/camera.h"
 
 namespace lumulus::reference {
 

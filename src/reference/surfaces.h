@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "draw/camera.h"
 #include "scene/surface.h"
+#include "view/camera.h"
 
 namespace lumulus::reference {
 

@@ -13,9 +13,9 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
-#include "draw/camera.h"
 #include "scene/load.h"
 #include "vdb/write.h"
+#include "view/camera.h"
 #include "volume/load.h"
 
 namespace lumulus {

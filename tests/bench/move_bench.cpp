@@ -12,7 +12,7 @@
 #include "base/stopwatch.h"
 #include "bench/bench_main.h"
 #include "reference/render.h"
-#include "renderer.h"
+#include "render/renderer.h"
 #include "scene/load.h"
 #include "volume/load.h"
 
@@ -22,7 +22,7 @@ namespace {
 
 constexpr int turns = 3;
 // Moves are shorter than a sample, and their times scatter more.
-constexpr int movesATurn = 4;
+constexpr int movesARound = 4;
 // The tracer's samples 5, 6 and 7: others, whose numbers are powers of two, look up transmittance too and take longer.
 constexpr int samplesBefore = 4;
 constexpr double degreesAMove = 2.0;
@@ -93,7 +93,7 @@ void run(const std::string& path, const std::vector<std::string>& overrides) {
         const Stopwatch watch;
         sampleOnce();
         samples.push_back(watch.seconds());
-        for (int i = 0; i < movesATurn; ++i) {
+        for (int i = 0; i < movesARound; ++i) {
             march.move();
             billboards.move();
         }
@@ -102,7 +102,7 @@ void run(const std::string& path, const std::vector<std::string>& overrides) {
     for (int turn = 0; turn < turns; ++turn) generations.push_back(march.generation());
     const double sample = median(samples);
     fmt::print("{}x{} pixels, medians of {} and {} moves  against the sample\n", scene.image.width, scene.image.height,
-               turns, turns * movesATurn);
+               turns, turns * movesARound);
     print("path tracer, 1 sample a pixel", sample, sample);
     print("move, marched", march.seconds(), sample);
     print("move, billboards", billboards.seconds(), sample);

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <type_traits>
 
-#include "photon/emission.h"
+#include "light/photon/emission.h"
 #include "shared/phase.h"
 #include "shared/phase_table.h"
 #include "shared/photon.h"
@@ -101,7 +101,7 @@ PlainWalk::PlainWalk(const vdb::Volume& volume, const cloud::Cloud& cloud, const
     const double f = static_cast<double>(medium.tables.forwardFraction);
     const double least = std::min({medium.albedo.x, medium.albedo.y, medium.albedo.z});
     extinction_ = static_cast<float>(medium.extinction * (1.0 - f * least));
-    turnShare_ = static_cast<float>((1.0 - f) / (1.0 - f * least));
+    scatterShare_ = static_cast<float>((1.0 - f) / (1.0 - f * least));
     straightWeight_ = least < 1.0 ? glm::vec3((medium.albedo - least) / (1.0 - least)) : glm::vec3(0.0F);
     for (std::size_t i = 0; i < density_.size(); ++i)
         density_[i] = static_cast<std::uint16_t>(std::lround(65535.0F * volume.density[i] / volume.maximum));
@@ -187,7 +187,7 @@ bool PlainWalk::collide(Photon& photon, const glm::vec3& voxel, Random& random, 
         photon.power *= before / after;
         return true;
     };
-    if (turnShare_ < 1.0F && random() >= turnShare_) return survives(straightWeight_);
+    if (scatterShare_ < 1.0F && random() >= scatterShare_) return survives(straightWeight_);
     if (photon.turns > 0 || !photon.ofSun) record(photon, voxel, sums);
     ++photon.turns;
     const glm::vec3 albedo(medium_.albedo);
@@ -195,7 +195,7 @@ bool PlainWalk::collide(Photon& photon, const glm::vec3& voxel, Random& random, 
     const phase::ScatteringTables& tables = medium_.tables;
     shared::ScatterAngle angle{};
     if (tables.analyticHg) {
-        angle = shared::sampleHg(tables.g, random(), tables.turnFraction);
+        angle = shared::sampleHg(tables.g, random(), tables.scatterFraction);
     } else {
         const shared::TableCell cell = shared::inverseCdfCell(random());
         const float* entry = tables.inverseCdf.data() + cell.base;

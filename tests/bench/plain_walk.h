@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cloud/cloud.h"
-#include "photon/photon_map.h"
+#include "light/photon/photon_map.h"
 #include "scene/scene.h"
 #include "vdb/volume.h"
 
@@ -49,7 +49,7 @@ class PlainWalk {
     glm::vec3 cellSize_;
     glm::mat3 worldToCells_;  ///< cells per metre
     glm::dmat3 faceArea_;
-    float extinction_, turnShare_;  ///< collisions that are turns, or not at albedo below 1
+    float extinction_, scatterShare_;  ///< collisions that are turns, or not at albedo below 1
     glm::vec3 straightWeight_;
     std::vector<float> majorants_;               ///< with distances in empty space, as the GPU's
     std::vector<std::uint16_t> density_;         ///< of 65535, half the bytes of floats

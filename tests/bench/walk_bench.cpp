@@ -80,7 +80,7 @@ cloud::PrepareOptions prepareOptions(const scene::Scene& scene, const photon::Me
     cloud::PrepareOptions options;
     options.preparation = scene.preparation;
     options.majorant = scene.photonMap.majorant;
-    options.reducedExtinction = medium.extinction * static_cast<double>(medium.tables.turnFraction) *
+    options.reducedExtinction = medium.extinction * static_cast<double>(medium.tables.scatterFraction) *
                                 (1.0 - static_cast<double>(medium.tables.bandMoments[1]));
     return options;
 }

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <vector>
 
-#include "draw/bounds.h"
 #include "support/cloud_cases.h"
 #include "support/vulkan_fixture.h"
+#include "view/bounds.h"
 
 namespace lumulus::draw {
 namespace {

@@ -1,5 +1,5 @@
 // The fog's filters on the GPU: energy, what must stay as it is, and the scattering pyramid against the exact filter.
-#include "fog/fog.h"
+#include "fog/screen/fog.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "draw/light_field.h"
+#include "light/light_field.h"
 
 #include <gtest/gtest.h>
 
@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "gpu/transfer.h"
-#include "shared/deposits.h"
+#include "shared/collision_estimator.h"
 #include "shared/photon.h"
 #include "support/cloud_cases.h"
 #include "support/vulkan_fixture.h"
 
-namespace lumulus::draw {
+namespace lumulus::light {
 namespace {
 
 using glm::dvec4;
@@ -109,19 +109,19 @@ class LightFieldTest : public test::VulkanTest, public testing::WithParamInterfa
     }
 
     Grid<glm::vec4> filled(const cloud::CellGrid& cells, const cloud::Cloud& cloud) {
-        std::vector<std::int64_t> counts(shared::depositCounts(cells.cells));
+        std::vector<std::int64_t> counts(shared::estimatorCounts(cells.cells));
         const Grid<double> numbers(cells.cells);
         forEach(ivec3(0), cells.cells, [&](const ivec3& cell) {
             counts[shared::cubePlace(cells.cells, cell) + shared::placeInCube(cell)] = countIn(numbers.index(cell));
         });
-        gpu::Buffer deposits(context, "deposits", counts.size() * sizeof(std::int64_t), gpu::Memory::device);
-        gpu::upload(context, deposits, counts);
+        gpu::Buffer estimates(context, "estimates", counts.size() * sizeof(std::int64_t), gpu::Memory::device);
+        gpu::upload(context, estimates, counts);
         const gpu::Image fluences = collectorImage(dvec4(0.0, 0.0, 0.0, fluence), cloud.collectors.size());
         const gpu::Image towardsEye = collectorImage(radiance, cloud.collectors.size());
         const LightField field(context, cloud, cells, cells);
         gpu::Commands commands(context);
         commands.begin();
-        field.recordCounts(commands, fluences, {deposits, 0, photon, photon, massScale, 0.0});
+        field.recordCounts(commands, fluences, {estimates, 0, photon, photon, massScale, 0.0});
         field.record(commands, glm::vec3(-50.0F, 20.0F, 10.0F), towardsEye);
         commands.submit();
         commands.wait();
@@ -165,4 +165,4 @@ TEST_F(LongCloud, HasRoomForTheRing) {
 INSTANTIATE_TEST_SUITE_P(Edges, LightFieldTest, testing::Values(1, 2, 4));
 
 }  // namespace
-}  // namespace lumulus::draw
+}  // namespace lumulus::light

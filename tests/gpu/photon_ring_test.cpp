@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "gpu/transfer.h"
-#include "photon/photon_map.h"
+#include "light/photon/photon_map.h"
 #include "support/cloud_cases.h"
 #include "support/photon_setup.h"
 #include "support/vulkan_fixture.h"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "photon/photon_map.h"
+#include "light/photon/photon_map.h"
 #include "support/cloud_cases.h"
 #include "support/photon_setup.h"
 #include "support/vulkan_fixture.h"
@@ -25,7 +25,7 @@ class PhotonStore : public test::VulkanTest {
 
 /// In a black cloud every collision is a photon's first: those of the sky are stored, those of the sun are drawn
 /// otherwise. So the records tell which light a photon came from.
-TEST_F(PhotonStore, SunsFirstTurnIsNotStored) {
+TEST_F(PhotonStore, SunsFirstScatteringIsNotStored) {
     const Medium black = test::mediumOf({.extinction = 0.05, .albedo = dvec3(0.0)});
     const scene::Sun sun = test::sunFrom({1, 2, 0}, dvec3(2.0), 0.53);
     const Counters bySun = traced(black, sun, test::skyOf(dvec3(0.0)), 5000);

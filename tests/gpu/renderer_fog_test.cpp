@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "renderer.h"
+#include "render/renderer.h"
 #include "support/small_scene.h"
 
 namespace lumulus {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "renderer.h"
+#include "render/renderer.h"
 #include "support/small_scene.h"
 #include "support/temporary_folder.h"
 #include "support/test_volumes.h"
@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Passes, EachMode, testing::Values(scene::DrawMode::marc
 TEST_P(EachMode, SunAndSky) {
     const Frame frame = test::render(scene);
     // no "accumulate": without a ring the light is read where it was traced
-    const std::vector<std::string> expected{"trace",       "sort",         "gather",      "sun depth",
+    const std::vector<std::string> expected{"trace",       "sort",         "gather",      "shadow volume",
                                             "reconstruct", "light counts", "light field", drawPass(GetParam())};
     EXPECT_THAT(frame.passes(), ElementsAreArray(expected));
     EXPECT_EQ(frame.statistics.photons, 4000U);
@@ -67,7 +67,7 @@ TEST_P(EachMode, SunAndSky) {
 TEST_P(EachMode, DarkSunHasNoPassesOfItsOwn) {
     scene.sun.irradiance = dvec3(0.0);
     const Frame frame = test::render(scene);
-    EXPECT_THAT(frame.passes(), Not(Contains("sun depth")));
+    EXPECT_THAT(frame.passes(), Not(Contains("shadow volume")));
     EXPECT_THAT(frame.passes(), Contains("trace"));
     expectFinite(frame.image);
 }
@@ -87,7 +87,7 @@ TEST_P(EachMode, BlackCloudIsOnlyDrawn) {
 TEST_P(EachMode, SunOnly) {
     scene.sky.radiance = dvec3(0.0);
     const Frame frame = test::render(scene);
-    EXPECT_THAT(frame.passes(), Contains("sun depth"));
+    EXPECT_THAT(frame.passes(), Contains("shadow volume"));
     EXPECT_EQ(frame.statistics.photons, 4000U);
     expectFinite(frame.image);
 }
@@ -124,7 +124,7 @@ TEST_P(EachMode, TheSunsDepthsAreMadeOnce) {
     renderer.draw();
     std::vector<std::string> names;
     for (const PassTime& pass : renderer.statistics().passes) names.push_back(pass.name);
-    EXPECT_THAT(names, Not(Contains("sun depth")));
+    EXPECT_THAT(names, Not(Contains("shadow volume")));
     EXPECT_THAT(names, Contains(drawPass(GetParam())));
     EXPECT_THAT(renderer.statistics().validationMessages, IsEmpty());
 }

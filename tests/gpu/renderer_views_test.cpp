@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "renderer.h"
+#include "render/renderer.h"
 #include "support/small_scene.h"
 
 namespace lumulus {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "photon/photon_map.h"
+#include "light/photon/photon_map.h"
 #include "support/cloud_cases.h"
 #include "support/photon_setup.h"
 #include "support/statistics.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "photon/photon_map.h"
+#include "light/photon/photon_map.h"
 #include "support/cloud_cases.h"
 #include "support/field.h"
 #include "support/photon_setup.h"

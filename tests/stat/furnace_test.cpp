@@ -6,8 +6,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "photon/emission.h"
-#include "photon/photon_map.h"
+#include "light/photon/emission.h"
+#include "light/photon/photon_map.h"
 #include "support/cloud_cases.h"
 #include "support/photon_setup.h"
 #include "support/statistics.h"

@@ -17,7 +17,7 @@
 namespace lumulus {
 namespace {
 
-using shared::SampledTurn;
+using shared::SampledDirection;
 using shared::SampleHgPush;
 
 constexpr std::uint32_t samples = 1U << 20U;
@@ -25,10 +25,10 @@ const std::uint32_t stream = shared::rngStream(20240502U, 0U, 0U);
 
 class HgSampler : public test::VulkanTest, public testing::WithParamInterface<test::PhaseCase> {
   protected:
-    std::vector<SampledTurn> sample(const glm::vec3& from, double cut) {
+    std::vector<SampledDirection> sample(const glm::vec3& from, double cut) {
         const phase::PhaseFunction p(GetParam().phase);
         const gpu::Program<SampleHgPush> program(context, "sample_hg", test::sample_hg_comp);
-        const gpu::Buffer turns(context, "turns", samples * sizeof(SampledTurn), gpu::Memory::device);
+        const gpu::Buffer turns(context, "turns", samples * sizeof(SampledDirection), gpu::Memory::device);
         gpu::Commands commands(context);
         const SampleHgPush push{from, static_cast<float>(GetParam().phase.g),
                                 static_cast<float>(1.0 - p.forwardFraction(cut)), stream, samples};
@@ -37,7 +37,7 @@ class HgSampler : public test::VulkanTest, public testing::WithParamInterface<te
         commands.dispatch(program, {{"Turns", turns}}, push, {samples / 64, 1, 1});
         commands.submit();
         commands.wait();
-        return gpu::download<SampledTurn>(context, turns);
+        return gpu::download<SampledDirection>(context, turns);
     }
 };
 
@@ -45,7 +45,7 @@ TEST_P(HgSampler, DistributionIsThatOfThePhaseFunction) {
     const phase::PhaseFunction p(GetParam().phase);
     for (const double cut : {0.0, 12.0 * test::degree}) {
         test::AngleDistribution distribution(p, cut);
-        for (const SampledTurn& turn : sample({0.0F, 0.0F, 1.0F}, cut)) {
+        for (const SampledDirection& turn : sample({0.0F, 0.0F, 1.0F}, cut)) {
             distribution.add(shared::ScatterAngle(turn.angle.x, turn.angle.y, turn.angle.z));
         }
         distribution.expectAgreement();
@@ -58,7 +58,7 @@ TEST_P(HgSampler, RandomNumbersAreThoseOfTheHostAndTurnsAreTrue) {
     std::uint32_t different = 0;
     double longest = 0.0;
     double farthest = 0.0;
-    for (const SampledTurn& turn : sample(glm::vec3(from), 0.0)) {
+    for (const SampledDirection& turn : sample(glm::vec3(from), 0.0)) {
         different += turn.uniform4 == shared::rngUniform4({index++, 0U, 0U, stream}) ? 0U : 1U;
         const glm::dvec3 to(turn.to);
         longest = std::max(longest, std::abs(glm::length(to) - 1.0));

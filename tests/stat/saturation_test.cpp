@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "photon/photon_map.h"
+#include "light/photon/photon_map.h"
 #include "support/cloud_cases.h"
 #include "support/photon_setup.h"
 #include "support/vulkan_fixture.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "photon/slab.h"
+#include "light/photon/slab.h"
 #include "support/vulkan_fixture.h"
 
 namespace lumulus::photon {

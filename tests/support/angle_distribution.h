@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "phase/axes.h"
-#include "phase/phase_function.h"
+#include "medium/axes.h"
+#include "medium/phase_function.h"
 #include "shared/phase.h"
 #include "support/phase_cases.h"
 #include "support/statistics.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "phase/phase_function.h"
-#include "phase/quadrature.h"
+#include "medium/phase_function.h"
+#include "medium/quadrature.h"
 
 namespace lumulus::test {
 

@@ -4,8 +4,8 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
-#include "phase/scattering_tables.h"
-#include "photon/photon_map.h"
+#include "light/photon/photon_map.h"
+#include "medium/scattering_tables.h"
 #include "scene/scene.h"
 
 namespace lumulus::test {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer.h"
+#include "render/renderer.h"
 
 namespace lumulus::test {
 

@@ -4,5 +4,5 @@ lumulus_test(bench_test
           ${CMAKE_CURRENT_LIST_DIR}/bench_plot_test.cpp ${CMAKE_CURRENT_LIST_DIR}/bench_peer_test.cpp
   LINK lumulus_base lumulus_bench PNG::PNG)
 lumulus_test(shipped_scenes_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/shipped_scenes_test.cpp
-                                 LINK lumulus_camera lumulus_scene lumulus_test_rico lumulus_vdb lumulus_volume)
+                                 LINK lumulus_view lumulus_scene lumulus_test_rico lumulus_vdb lumulus_volume)
 target_compile_definitions(shipped_scenes_test PRIVATE LUMULUS_SOURCE_DIR="${CMAKE_SOURCE_DIR}")

@@ -1,1 +1,1 @@
-lumulus_test(camera_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/camera_test.cpp LINK lumulus_camera)
+lumulus_test(camera_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/camera_test.cpp LINK lumulus_view)

@@ -1,4 +1,4 @@
-#include "draw/camera.h"
+#include "view/camera.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

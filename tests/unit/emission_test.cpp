@@ -1,4 +1,4 @@
-#include "photon/emission.h"
+#include "light/photon/emission.h"
 
 #include <gtest/gtest.h>
 

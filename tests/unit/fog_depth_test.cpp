@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fog/depth.h"
+#include "fog/screen/depth.h"
 #include "shared/draw.h"
 
 namespace lumulus::fog {

@@ -6,7 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "fog/media.h"
+#include "fog/screen/spread.h"
+#include "medium/fog_media.h"
 #include "shared/fog.h"
 
 namespace lumulus::fog {

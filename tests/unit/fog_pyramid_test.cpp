@@ -1,7 +1,7 @@
 // Where the levels of a pyramid lie, and how many a spread needs.
 #include <gtest/gtest.h>
 
-#include "fog/pyramid.h"
+#include "fog/screen/pyramid.h"
 
 namespace lumulus::fog {
 namespace {

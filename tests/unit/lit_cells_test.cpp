@@ -1,10 +1,10 @@
-#include "draw/lit_cells.h"
+#include "light/lit_cells.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-namespace lumulus::draw {
+namespace lumulus::light {
 namespace {
 
 using glm::ivec3;
@@ -78,4 +78,4 @@ TEST(LitCells, GridsThatAreThinOrEmpty) {
 }
 
 }  // namespace
-}  // namespace lumulus::draw
+}  // namespace lumulus::light

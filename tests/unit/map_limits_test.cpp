@@ -1,5 +1,5 @@
 // What a photon map can hold, and the numbers that stay whole with 2³¹ photons and more.
-#include "photon/map_limits.h"
+#include "light/photon/map_limits.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "photon/emission.h"
+#include "light/photon/emission.h"
 #include "shared/photon.h"
 #include "support/photon_setup.h"
 
@@ -52,7 +52,7 @@ TEST(MapLimits, TheBudgetIsKept) {
         << "a little too much does not read like what fits";
 }
 
-TEST(MapLimits, HalvesTakeAGenerationMore) {
+TEST(MapLimits, SplitGenerationsTakeOneMore) {
     const MapSize halves{1024, 8, 20, false, true};
     EXPECT_EQ(mapBytes(halves), 9 * mebi / 2);
     EXPECT_EQ(refusal(halves, 9 * mebi / 2, 128 * mebi), "");

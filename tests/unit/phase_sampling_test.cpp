@@ -5,8 +5,8 @@
 #include <functional>
 #include <glm/glm.hpp>
 
-#include "phase/axes.h"
-#include "phase/inverse_cdf.h"
+#include "medium/axes.h"
+#include "medium/inverse_cdf.h"
 #include "shared/phase.h"
 #include "shared/phase_table.h"
 #include "shared/rng.h"
@@ -48,12 +48,12 @@ TEST_P(SampleHg, DistributionIsThatOfThePhaseFunction) {
     expectDistribution(p, 0.0, [g](float u) { return shared::sampleHg(g, u, 1.0F); });
 }
 
-TEST_P(SampleHg, RestrictedToTurns) {
+TEST_P(SampleHg, RestrictedBeyondTheCut) {
     const PhaseFunction p(GetParam().phase);
     const auto g = static_cast<float>(GetParam().phase.g);
     for (const double cut : {2.0 * degree, 12.0 * degree}) {
-        const auto turnFraction = static_cast<float>(1.0 - p.forwardFraction(cut));
-        expectDistribution(p, cut, [=](float u) { return shared::sampleHg(g, u, turnFraction); });
+        const auto scatterFraction = static_cast<float>(1.0 - p.forwardFraction(cut));
+        expectDistribution(p, cut, [=](float u) { return shared::sampleHg(g, u, scatterFraction); });
     }
 }
 

@@ -1,4 +1,4 @@
-#include "phase/scattering_tables.h"
+#include "medium/scattering_tables.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-#include "phase/axes.h"
-#include "phase/one_turn.h"
-#include "phase/sun_disc.h"
+#include "medium/axes.h"
+#include "medium/single_scattering.h"
+#include "medium/sun_disc.h"
 #include "shared/phase_table.h"
 #include "support/phase_cases.h"
 #include "support/statistics.h"
@@ -40,18 +40,18 @@ double lookUpPhase(const ScatteringTables& tables, double theta) {
 }
 
 /// H or K as a shader looks it up: bilinear, times the decay.
-double lookUpOneTurn(const ScatteringTables& tables, const std::vector<float>& table, double tau, double theta,
-                     int channel) {
+double lookUpSingleScattering(const ScatteringTables& tables, const std::vector<float>& table, double tau, double theta,
+                              int channel) {
     const shared::TableCell angle =
-        shared::tableCell(shared::angleToAxis(angleOf(theta), tables.angleScale), shared::oneTurnAngleCount);
+        shared::tableCell(shared::angleToAxis(angleOf(theta), tables.angleScale), shared::singleScatterAngleCount);
     const shared::TableCell depth =
-        shared::tableCell(shared::tauToAxis(static_cast<float>(tau), tables.tauMaximum), shared::oneTurnTauCount);
+        shared::tableCell(shared::tauToAxis(static_cast<float>(tau), tables.tauMaximum), shared::singleScatterTauCount);
     const auto entry = [&](int a, int t) {
-        return table[static_cast<std::size_t>(shared::oneTurnIndex(angle.base + a, depth.base + t) + channel)];
+        return table[static_cast<std::size_t>(shared::singleScatterIndex(angle.base + a, depth.base + t) + channel)];
     };
     const float value = glm::mix(glm::mix(entry(0, 0), entry(0, 1), depth.fraction),
                                  glm::mix(entry(1, 0), entry(1, 1), depth.fraction), angle.fraction);
-    return static_cast<double>(value * std::exp(-tables.oneTurnDecay[channel] * static_cast<float>(tau)));
+    return static_cast<double>(value * std::exp(-tables.extinctionScale[channel] * static_cast<float>(tau)));
 }
 
 struct Pair {
@@ -60,7 +60,7 @@ struct Pair {
 };
 
 /// The formulas as they are written.
-Pair sumOneTurn(const phase::OneTurnSeries& series, double tau, double theta, double omega) {
+Pair sumSingleScattering(const phase::SingleScatteringSeries& series, double tau, double theta, double omega) {
     Pair sums;
     double before = 0.0;
     double legendre = 1.0;
@@ -94,7 +94,7 @@ class Tables : public ::testing::TestWithParam<PhaseCase> {
 
 TEST_P(Tables, FractionsAndMoments) {
     EXPECT_NEAR(static_cast<double>(tables_.forwardFraction), function_.forwardFraction(cut), 1e-7);
-    EXPECT_FLOAT_EQ(tables_.forwardFraction + tables_.turnFraction, 1.0F);
+    EXPECT_FLOAT_EQ(tables_.forwardFraction + tables_.scatterFraction, 1.0F);
     ASSERT_EQ(tables_.bandMoments.size(), 8U);
     EXPECT_FLOAT_EQ(tables_.bandMoments[0], 1.0F);
     const double turn = 1.0 - function_.forwardFraction(cut);
@@ -122,21 +122,21 @@ TEST_P(Tables, PhaseTableIsThePhaseFunctionAveragedOverTheDisc) {
 
 /// At the middles of the cells, the worst places: errors relative to the source that H and K are added to, at its peak
 /// and, in the mean, in the same direction. (H and K each have a step at θc, as wide as the lobe or the sun.)
-TEST_P(Tables, OneTurnAgreesWithTheSeries) {
-    const phase::OneTurnSeries series = phase::makeOneTurnSeries(function_, cut, 0.5 * sunDiameter);
+TEST_P(Tables, SingleScatteringAgreesWithTheSeries) {
+    const phase::SingleScatteringSeries series = phase::makeSingleScatteringSeries(function_, cut, 0.5 * sunDiameter);
     for (const int row : {0, 1, 5, 20, 40}) {
-        const double tau =
-            phase::axisToTau((row + 0.5) / (shared::oneTurnTauCount - 1), static_cast<double>(tables_.tauMaximum));
+        const double tau = phase::axisToTau((row + 0.5) / (shared::singleScatterTauCount - 1),
+                                            static_cast<double>(tables_.tauMaximum));
         for (int channel = 0; channel < 3; ++channel) {
             double peak = 0.0;
             double worst = 0.0;
             test::RunningMean local;
-            for (int column = 0; column < shared::oneTurnAngleCount - 1; column += 10) {
-                const double theta = phase::axisToAngle((column + 0.5) / (shared::oneTurnAngleCount - 1),
+            for (int column = 0; column < shared::singleScatterAngleCount - 1; column += 10) {
+                const double theta = phase::axisToAngle((column + 0.5) / (shared::singleScatterAngleCount - 1),
                                                         static_cast<double>(tables_.angleScale));
-                const Pair exact = sumOneTurn(series, tau, theta, albedo[channel]);
-                const double h = lookUpOneTurn(tables_, tables_.oneTurnH, tau, theta, channel);
-                const double k = lookUpOneTurn(tables_, tables_.oneTurnK, tau, theta, channel);
+                const Pair exact = sumSingleScattering(series, tau, theta, albedo[channel]);
+                const double h = lookUpSingleScattering(tables_, tables_.singleScatterH, tau, theta, channel);
+                const double k = lookUpSingleScattering(tables_, tables_.singleScatterK, tau, theta, channel);
                 const double source = lookUpPhase(tables_, theta) * std::exp(-tau) + exact.h + exact.k;
                 const double error = std::abs(h - exact.h) + std::abs(k - exact.k);
                 peak = std::max(peak, source);
@@ -150,17 +150,17 @@ TEST_P(Tables, OneTurnAgreesWithTheSeries) {
 }
 
 /// Only l = 0 is left of an integral over the sphere; all of it is what f does not count as extinction.
-TEST_P(Tables, OneTurnConservesEnergy) {
+TEST_P(Tables, SingleScatteringConservesEnergy) {
     const double f = function_.forwardFraction(cut);
     for (const double tau : {0.1, 1.0, 7.0}) {
         for (int channel = 0; channel < 3; ++channel) {
             const auto integrate = [&](const std::vector<float>& table) {
                 return test::integrateSphere(
-                    [&](double theta) { return lookUpOneTurn(tables_, table, tau, theta, channel); }, 0.0, pi,
+                    [&](double theta) { return lookUpSingleScattering(tables_, table, tau, theta, channel); }, 0.0, pi,
                     0.1 * function_.lobeWidth());
             };
-            const double h = integrate(tables_.oneTurnH);
-            const double k = integrate(tables_.oneTurnK);
+            const double h = integrate(tables_.singleScatterH);
+            const double k = integrate(tables_.singleScatterK);
             const double bracket = std::exp(-tau) * std::expm1(albedo[channel] * f * tau);
             EXPECT_NEAR(h, f * bracket, 2e-3 * f * bracket) << tau;
             EXPECT_NEAR(k, (1.0 - f) * bracket, 2e-3 * (1.0 - f) * bracket) << tau;
@@ -170,49 +170,49 @@ TEST_P(Tables, OneTurnConservesEnergy) {
     }
 }
 
-TEST_P(Tables, OneTurnVanishesWithoutDepthOrAlbedo) {
+TEST_P(Tables, SingleScatteringVanishesWithoutDepthOrAlbedo) {
     for (const double theta : {0.0, 0.1, 1.0, pi}) {
-        EXPECT_EQ(lookUpOneTurn(tables_, tables_.oneTurnH, 0.0, theta, 0), 0.0);
-        EXPECT_EQ(lookUpOneTurn(tables_, tables_.oneTurnK, 0.0, theta, 0), 0.0);
+        EXPECT_EQ(lookUpSingleScattering(tables_, tables_.singleScatterH, 0.0, theta, 0), 0.0);
+        EXPECT_EQ(lookUpSingleScattering(tables_, tables_.singleScatterK, 0.0, theta, 0), 0.0);
     }
     const ScatteringTables black = phase::makeScatteringTables(phase_, cut, glm::dvec3(0.0), 4, sunDiameter);
-    EXPECT_EQ(*std::max_element(black.oneTurnH.begin(), black.oneTurnH.end()), 0.0F);
-    EXPECT_EQ(*std::max_element(black.oneTurnK.begin(), black.oneTurnK.end()), 0.0F);
+    EXPECT_EQ(*std::max_element(black.singleScatterH.begin(), black.singleScatterH.end()), 0.0F);
+    EXPECT_EQ(*std::max_element(black.singleScatterK.begin(), black.singleScatterK.end()), 0.0F);
 }
 
 INSTANTIATE_TEST_SUITE_P(Phase, Tables, ::testing::ValuesIn(tableCases()));
 
-TEST(OneTurn, FirstOrderIsTheForwardLobeConvolvedWithItself) {
+TEST(SingleScattering, FirstOrderIsTheForwardLobeConvolvedWithItself) {
     // straight ahead: ∫_θ<θc p² dω, times ωτ; a point sun, whose series is the slowest
     const PhaseFunction p(test::hgCase(0.85).phase);
-    const phase::OneTurnSeries series = phase::makeOneTurnSeries(p, cut, 0.0);
+    const phase::SingleScatteringSeries series = phase::makeSingleScatteringSeries(p, cut, 0.0);
     const double squared = test::integrateSphere(
         [&](double theta) { return p.evaluateAngle(theta) * p.evaluateAngle(theta); }, 0.0, cut, p.lobeWidth());
     const double tau = 1e-6;
-    const Pair found = sumOneTurn(series, tau, 0.0, 0.9);
+    const Pair found = sumSingleScattering(series, tau, 0.0, 0.9);
     EXPECT_NEAR(found.h / (0.9 * tau), squared, 3e-4 * squared);
     EXPECT_NEAR(found.k / (0.9 * tau), 0.0, 3e-4 * squared);
 }
 
-TEST(OneTurn, NothingWithoutACut) {
+TEST(SingleScattering, NothingWithoutACut) {
     const ScatteringTables tables = phase::makeScatteringTables(test::hgCase(0.85).phase, 0.0, albedo, 6, sunDiameter);
-    EXPECT_TRUE(tables.oneTurnH.empty());
-    EXPECT_TRUE(tables.oneTurnK.empty());
+    EXPECT_TRUE(tables.singleScatterH.empty());
+    EXPECT_TRUE(tables.singleScatterK.empty());
     EXPECT_EQ(tables.forwardFraction, 0.0F);
-    EXPECT_EQ(tables.turnFraction, 1.0F);
+    EXPECT_EQ(tables.scatterFraction, 1.0F);
     for (std::size_t l = 0; l < 6; ++l) {
         EXPECT_NEAR(static_cast<double>(tables.bandMoments[l]), std::pow(0.85, static_cast<double>(l)), 1e-7);
     }
 }
 
-TEST(OneTurn, SharpestLobesStayFinite) {
+TEST(SingleScattering, SharpestLobesStayFinite) {
     for (const double g : {-0.9999, 0.9999}) {
         const ScatteringTables tables =
             phase::makeScatteringTables(test::hgCase(g).phase, cut, glm::dvec3(1.0), 6, sunDiameter);
-        for (const std::vector<float>* table : {&tables.oneTurnH, &tables.oneTurnK, &tables.phaseTable}) {
+        for (const std::vector<float>* table : {&tables.singleScatterH, &tables.singleScatterK, &tables.phaseTable}) {
             EXPECT_TRUE(std::all_of(table->begin(), table->end(), [](float x) { return std::isfinite(x); })) << g;
         }
-        EXPECT_GT(tables.turnFraction, 0.0F);
+        EXPECT_GT(tables.scatterFraction, 0.0F);
         EXPECT_FLOAT_EQ(tables.bandMoments[0], 1.0F);
     }
 }

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "base/error.h"
-#include "phase/phase_function.h"
-#include "phase/quadrature.h"
+#include "medium/phase_function.h"
+#include "medium/quadrature.h"
 #include "support/phase_cases.h"
 
 namespace lumulus {

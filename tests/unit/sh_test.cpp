@@ -9,8 +9,8 @@
 #include <numbers>
 #include <vector>
 
-#include "phase/phase_function.h"
-#include "phase/quadrature.h"
+#include "medium/phase_function.h"
+#include "medium/quadrature.h"
 #include "shared/rng.h"
 #include "support/phase_cases.h"
 

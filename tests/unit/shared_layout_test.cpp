@@ -28,15 +28,15 @@ namespace spirv {
 #include "spirv/draw/billboard_mean.comp.h"
 #include "spirv/draw/billboards.comp.h"
 #include "spirv/draw/interpolate.comp.h"
-#include "spirv/draw/light_cells.comp.h"
-#include "spirv/draw/light_counts.comp.h"
-#include "spirv/draw/sun_depth.comp.h"
 #include "spirv/fog/chain_fetch.comp.h"
 #include "spirv/fog/exact.comp.h"
 #include "spirv/fog/masked_prepare.comp.h"
 #include "spirv/fog/scatter_down.comp.h"
 #include "spirv/fog/scatter_prepare.comp.h"
 #include "spirv/gpu/shaders/layout.comp.h"
+#include "spirv/light/light_cells.comp.h"
+#include "spirv/light/light_counts.comp.h"
+#include "spirv/light/shadow_volume.comp.h"
 #include "spirv/photon/accumulate.comp.h"
 #include "spirv/photon/gather.comp.h"
 #include "spirv/photon/reconstruct.comp.h"
@@ -96,10 +96,10 @@ TEST(SharedLayout, Cloud) {
 }
 
 TEST(SharedLayout, Photon) {
-    EXPECT_LAYOUT(trace_comp, TraceParams, worldToCells, size, cells, cellSize, extinction, turnShare, albedo,
-                  straightWeight, turnFraction, asymmetry, sunDirection, sunCone, faceArea, faceSize, sunThrough,
+    EXPECT_LAYOUT(trace_comp, TraceParams, worldToCells, size, cells, cellSize, extinction, scatterShare, albedo,
+                  straightWeight, scatterFraction, asymmetry, sunDirection, sunCone, faceArea, faceSize, sunThrough,
                   sunPower, skyPower, sunPhotons, photons, generation, stream, collectors, invocations, recordCapacity,
-                  stepLimit, collisionLimit, depositBase, depositEdge, depositCells);
+                  stepLimit, collisionLimit, estimatorBase, estimatorEdge, estimatorCells);
     EXPECT_LAYOUT(trace_comp, TraceState, cell, offset, direction, weight, depth, photon, draws, collisions, turns,
                   alive);
     EXPECT_LAYOUT(trace_comp, PhotonRecord, collector, direction, power);
@@ -112,19 +112,19 @@ TEST(SharedLayout, Photon) {
 
 TEST(SharedLayout, Draw) {
     EXPECT_LAYOUT(billboards_comp, ViewParams, right, up, forward, halfExtent, size, projection);
-    EXPECT_LAYOUT(billboards_comp, LightParams, sunTravel, sunIrradiance, sunDisc, sunCone, skyRadiance, albedo, decay,
-                  turnShare, angleScale, tauMaximum);
+    EXPECT_LAYOUT(billboards_comp, LightParams, sunTravel, sunIrradiance, sunDisc, sunCone, skyRadiance, albedo,
+                  extinctionScale, scatterShare, angleScale, tauMaximum);
     EXPECT_LAYOUT(billboards_comp, FieldParams, worldToVoxel, eyeVoxel, size, cells, cellSize, extinction, voxelLength,
-                  radianceScale, voxelToSun, sunOffset);
-    EXPECT_LAYOUT(billboards_comp, LatticeParams, first, size, spacing, tolerance, depthTolerance);
-    EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, field, lattice, tilesAcross, samples);
+                  radianceScale, voxelToShadow, shadowOffset);
+    EXPECT_LAYOUT(billboards_comp, SamplingGrid, first, size, spacing, tolerance, depthTolerance);
+    EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, field, sampling, tilesAcross, samples);
     EXPECT_PUSH(billboards_comp, DrawPush, what, first, count);
     EXPECT_PUSH(interpolate_comp, InterpolatePush, first, count, firstBlock, blocks);
     EXPECT_LAYOUT(billboards_comp, Pixel, cloud, transmittance, alpha, depth, front, radiance, unused);
-    EXPECT_PUSH(sun_depth_comp, SunDepthPush, gridToVoxel, originVoxel, inverseSize, grid, step, firstRow);
+    EXPECT_PUSH(shadow_volume_comp, ShadowVolumePush, gridToVoxel, originVoxel, inverseSize, grid, step, firstRow);
     EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, eye, voxelToWorld, occupied, lit);
-    EXPECT_PUSH(light_counts_comp, LightCountsPush, size, grid, depositCells, depositsAcross, depositBase, depositScale,
-                massScale, photon, moment, occupied);
+    EXPECT_PUSH(light_counts_comp, LightCountsPush, size, grid, estimatorCells, estimatorAcross, estimatorBase,
+                estimatorScale, massScale, photon, moment, occupied);
     EXPECT_PUSH(billboard_mean_comp, BillboardMeanPush, worldToVoxel, inverseSize, spheres);
 }
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "draw/camera.h"
 #include "scene/load.h"
 #include "support/rico.h"
+#include "view/camera.h"
 #include "volume/load.h"
 
 // Every scene that ships loads, and what is meant for measuring shows enough of its cloud.

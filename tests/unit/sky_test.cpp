@@ -1,10 +1,10 @@
-#include "draw/sky.h"
+#include "frame/background.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-namespace lumulus::draw {
+namespace lumulus::frame {
 namespace {
 
 using glm::dvec3;
@@ -63,4 +63,4 @@ TEST(Sky, LeavesOutTheDiscWhereItIsDrawnLater) {
 }
 
 }  // namespace
-}  // namespace lumulus::draw
+}  // namespace lumulus::frame

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "draw/bounds.h"
+#include "view/bounds.h"
 
 namespace lumulus::draw {
 namespace {

@@ -9,12 +9,12 @@ SHARED_BEGIN
 struct SampleHgPush {
     vec3 from;  // unit vector that is turned
     float g;
-    float turnFraction;
+    float scatterFraction;
     uint stream;
     uint count;
 };
 
-struct SampledTurn {
+struct SampledDirection {
     vec4 uniform4;  // the random numbers, to be compared bit by bit
     vec3 angle;     // 1 − cos θ, 1 + cos θ, sin θ
     vec3 to;

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <vector>
+
+#include "gpu/commands.h"
+#include "gpu/transfer.h"
+#include "medium/scattering_tables.h"
+#include "shared/draw.h"
+
+namespace lumulus::draw {
+
+/// What there is to draw: nothing is compiled or bound for the rest.
+struct DrawFeatures {
+    bool forwardCut = false;  ///< the forward peak is cut
+    bool sun = false;
+    bool photons = false;
+    bool grey = false;  ///< the albedo is the same for all colours
+
+    std::vector<gpu::SpecConstant> constants() const {
+        return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun), gpu::SpecConstant::of(2, photons),
+                gpu::SpecConstant::of(3, grey)};
+    }
+};
+
+/// Phase function of the drawing passes on the GPU.
+struct PhaseTables {
+    PhaseTables(gpu::Context& context, const phase::ScatteringTables& tables, bool grey);
+    gpu::Buffer phase;
+    gpu::Image before, after;  ///< one-turn tables H and K; a single texel where the peak is not cut
+};
+
+/// What every drawing pass reads and writes. `params` holds one shared::DrawParams, `squares` the list of DRAW_SQUARES
+/// or DRAW_REFINED.
+struct FrameInputs {
+    const gpu::Buffer& params;
+    const PhaseTables& phase;
+    const gpu::Image& lightField;
+    const gpu::Image& shadowVolume;
+    const gpu::Buffer& pixels;
+    const gpu::Buffer& squares;
+
+    std::vector<gpu::Binding> bindings() const {
+        return {{"Params", params},
+                {"PhaseTable", phase.phase},
+                {"singleScatterH", phase.before},
+                {"singleScatterK", phase.after},
+                {"lightField", lightField, gpu::Sampler::linearClamp},
+                {"shadowVolume", shadowVolume, gpu::Sampler::linearClamp},
+                {"Pixels", pixels},
+                {"Blocks", squares}};
+    }
+};
+
+/// Room for so many pixels, as structs and as texels.
+inline gpu::Buffer pixelBuffer(gpu::Context& context, const char* name, std::uint64_t count) {
+    return {context, name, count * static_cast<std::uint64_t>(shared::PIXEL_TEXELS), VK_FORMAT_R32G32B32A32_SFLOAT,
+            gpu::Memory::device};
+}
+
+using DrawProgram = gpu::Program<shared::DrawPush>;
+
+/// Records the drawing of pixels, sampling points or what is listed.
+inline void dispatchDrawing(gpu::Commands& commands, const DrawProgram& program,
+                            const std::vector<gpu::Binding>& bindings, const gpu::Buffer& squares,
+                            const shared::DrawPush& push) {
+    if (push.what == shared::DRAW_SQUARES || push.what == shared::DRAW_REFINED)
+        commands.dispatchIndirect(program, bindings, push, squares);
+    else
+        commands.dispatch(program, bindings, push,
+                          {(static_cast<std::uint32_t>(push.count.x) + 15) / 16,
+                           (static_cast<std::uint32_t>(push.count.y) + 3) / 4, 1});
+}
+
+}  // namespace lumulus::draw

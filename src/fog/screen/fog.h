@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/interrupt.h"
+#include "gpu/commands.h"
+#include "scene/fog.h"
+#include "view/camera.h"
+
+namespace lumulus::fog {
+
+/// One layer of a picture: light and how far away it comes from, rows from the top.
+struct Layer {
+    std::vector<glm::vec4>
+        radiance;  ///< RGB ≥ 0; alpha: how much of the pixel the layer covers (for the fog's emission)
+    std::vector<float> distances;  ///< metres along the ray; shared::FAR_DEPTH where nothing ends it
+};
+
+/// The fog of a scene: makes of a clear picture what is seen through the fog. Exists only where there is fog.
+/// Errors: Error where memory runs out.
+class Fog {
+  public:
+    /// `scene` must have media. `check` is asked between the steps of apply().
+    Fog(gpu::Context& context, const scene::Fog& scene, Check check = stopIfInterrupted);
+    ~Fog();
+
+    /// The layer as seen by `camera`, whose picture it fills: RGB of each pixel.
+    std::vector<glm::vec4> apply(const Layer& layer, const Camera& camera);
+
+    const scene::Fog& scene() const;
+    /// Times of the passes of all apply() since the last call, added up by name.
+    std::vector<gpu::PassTime> takeTimes();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lumulus::fog

@@ -1,0 +1,147 @@
+#include "light/light_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gpu/groups.h"
+#include "gpu/transfer.h"
+
+namespace lumulus::light {
+
+namespace {
+
+namespace spirv {
+#include "spirv/light/light_cells.comp.h"
+#include "spirv/light/light_counts.comp.h"
+#include "spirv/light/light_mass.comp.h"
+#include "spirv/light/light_smooth.comp.h"
+}  // namespace spirv
+
+/// Photons of the map for each cell with density: as fine as the light changes near the surface, as coarse as the noise
+/// asks (docs/error-time.md has the figures). Where there are few photons noise is the lesser evil, so that there are
+/// this many cells along the longest side at least.
+constexpr double photonsInCell = 16.0, fewestAlong = 32.0;
+/// 64 MiB each for the counts, the cells and the smoothed field.
+constexpr std::uint64_t maxCells = 1ULL << 22U;
+/// With a ring round them they fit into 2048 texels, the least that desktop devices have along a volume.
+constexpr int maxAlong = 2046;
+
+int largestOf(const glm::ivec3& v) {
+    return std::max(v.x, std::max(v.y, v.z));
+}
+
+/// Voxels with density.
+double occupiedVoxels(const cloud::Cloud& cloud) {
+    double voxels = 0.0;
+    for (const cloud::Collector& collector : cloud.collectors) voxels += collector.occupiedVoxels();
+    return voxels;
+}
+
+}  // namespace
+
+cloud::CellGrid lightGrid(const cloud::Cloud& cloud, std::uint64_t photons) {
+    const int longest = largestOf(cloud.size);
+    const double wanted = std::min(std::cbrt(photonsInCell * occupiedVoxels(cloud) / static_cast<double>(photons)),
+                                   longest / fewestAlong);
+    cloud::CellGrid grid;
+    grid.edge = 1 << std::max(0L, std::lround(std::log2(wanted)));
+    grid.cells = (cloud.size + grid.edge - 1) / grid.edge;
+    while (grid.count() > maxCells || largestOf(grid.cells) > maxAlong) {
+        grid.edge *= 2;
+        grid.cells = (cloud.size + grid.edge - 1) / grid.edge;
+    }
+    return grid;
+}
+
+LightField::LightField(gpu::Context& context, const cloud::Cloud& cloud, const cloud::CellGrid& grid,
+                       const cloud::CellGrid& estimates)
+    : cloud_(cloud),
+      grid_(grid),
+      estimatorGrid_(estimates),
+      massProgram_(context, "light_mass", spirv::light_mass_comp),
+      countsProgram_(context, "light_counts", spirv::light_counts_comp, {gpu::SpecConstant::of(0, grid_.edge)}),
+      cellsProgram_(context, "light_cells", spirv::light_cells_comp, {gpu::SpecConstant::of(0, grid_.edge)}),
+      smoothProgram_(context, "light_smooth", spirv::light_smooth_comp),
+      mass_(context, "light cell mass", grid_.cells, VK_FORMAT_R32_SFLOAT),
+      counts_(context, "light counts", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
+      ownShare_(context, "own share", grid_.cells, VK_FORMAT_R32_SFLOAT),
+      cells_(context, "light cells", grid_.cells + 2, VK_FORMAT_R32G32B32A32_SFLOAT),
+      image_(context, "light field", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
+      lit_(findLitCells(context)),
+      litCells_(gpu::filledBuffer(context, "lit cells", lit_.numbers)) {
+    // what is not in the list stays dark
+    for (gpu::Image* image : {&cells_, &image_}) gpu::upload(context, *image, std::vector<std::byte>(image->bytes()));
+}
+
+/// Fills the mass.
+LitCells LightField::findLitCells(gpu::Context& context) const {
+    gpu::Commands commands(context);
+    commands.begin();
+    commands.dispatch(massProgram_, {{"density", cloud_.density, gpu::Sampler::linear}, {"cellMass", mass_}}, push(),
+                      gpu::linearGroups(grid_.count(), 64));
+    commands.submit();
+    commands.wait();
+    return litCells(grid_.cells, gpu::download<float>(context, mass_));
+}
+
+shared::LightFieldPush LightField::push() const {
+    shared::LightFieldPush push{};
+    push.size = cloud_.size;
+    push.grid = grid_.cells;
+    push.edge = grid_.edge;
+    return push;
+}
+
+glm::vec3 LightField::scale() const {
+    return 1.0F / glm::vec3(grid_.cells * grid_.edge);
+}
+
+void LightField::recordCounts(gpu::Commands& commands, const gpu::Image& fluences,
+                              const CollisionEstimates& estimates) const {
+    shared::LightCountsPush values{};
+    values.size = cloud_.size;
+    values.grid = grid_.cells;
+    values.estimatorCells = estimatorGrid_.cells;
+    values.estimatorAcross = grid_.edge / estimatorGrid_.edge;
+    values.estimatorBase = estimates.base;
+    values.estimatorScale = static_cast<float>(estimates.unit);
+    values.massScale = static_cast<float>(estimates.massScale);
+    values.photon = static_cast<float>(estimates.photonPower);
+    values.moment = static_cast<float>(estimates.moment);
+    values.occupied = lit_.occupied;
+    commands.pass("light counts");
+    commands.dispatch(countsProgram_,
+                      {{"density", cloud_.density, gpu::Sampler::nearest},
+                       {"collectorIndex", cloud_.collectorIndex, gpu::Sampler::nearest},
+                       {"fluences", fluences},
+                       {"CollisionEstimates", estimates.counts},
+                       {"cellMass", mass_},
+                       {"counts", counts_},
+                       {"ownShare", ownShare_},
+                       {"LitCells", litCells_}},
+                      values, gpu::linearGroups(lit_.occupied, 64));
+    commands.barrier("light counts");
+}
+
+void LightField::record(gpu::Commands& commands, const glm::vec3& eyeVoxel, const gpu::Image& radiance) const {
+    shared::LightFieldPush values = push();
+    values.eye = eyeVoxel;
+    values.voxelToWorld = glm::mat3(cloud_.toWorld.linear);
+    values.occupied = lit_.occupied;
+    values.lit = static_cast<std::uint32_t>(lit_.numbers.size());
+    commands.pass("light field");
+    commands.dispatch(cellsProgram_,
+                      {{"density", cloud_.density, gpu::Sampler::nearest},
+                       {"collectorIndex", cloud_.collectorIndex, gpu::Sampler::nearest},
+                       {"radiance", radiance},
+                       {"counts", counts_},
+                       {"cells", cells_},
+                       {"LitCells", litCells_}},
+                      values, gpu::linearGroups(lit_.occupied, 64));
+    commands.barrier("light cells");
+    commands.dispatch(smoothProgram_,
+                      {{"cells", cells_}, {"ownShare", ownShare_}, {"lightField", image_}, {"LitCells", litCells_}},
+                      values, gpu::linearGroups(lit_.numbers.size(), 64));
+}
+
+}  // namespace lumulus::light

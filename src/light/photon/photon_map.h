@@ -1,0 +1,123 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/interrupt.h"
+#include "cloud/cloud.h"
+#include "gpu/commands.h"
+#include "medium/scattering_tables.h"
+#include "scene/scene.h"
+
+namespace lumulus::photon {
+
+/// What photons need to know of the medium.
+struct Medium {
+    double extinction = 0.0;  ///< σt where the normalised density is 1 [1/m]
+    glm::dvec3 albedo{1.0};
+    phase::ScatteringTables tables;
+};
+
+struct Options {
+    std::uint64_t photonsPerGeneration = 100000;
+    int generations = 20;  ///< p, slots of the ring
+    std::uint32_t firstGeneration = 0;
+    int bands = 5;
+    std::uint64_t seed = 1;
+    /// Whether generations beyond the p-th will replace the oldest. A picture that stops at p needs no slots: they are
+    /// the bulk of the memory.
+    bool keepRing = false;
+    /// Cells in which the luminance that turns is counted, whatever its direction: finer than collectors can be.
+    cloud::CellGrid estimates;
+    /// Whether generations of even and of odd number stay apart until the sum takes them: pictures of both tell how
+    /// noisy a picture of all is. Not with a ring.
+    bool splitGenerations = false;
+    std::uint64_t memoryBudget = std::uint64_t{1} << 30U;  ///< bytes for all coefficients
+    Check check =
+        stopIfInterrupted;  ///< asked between the rounds of a generation; a map in which it threw is of no more use
+};
+
+/// Sums over all generations traced.
+struct Counters {
+    std::uint64_t emitted = 0, events = 0, nulls = 0, absorbed = 0, escaped = 0, lost = 0, records = 0, saturated = 0;
+};
+
+/// Which generations a view is of.
+enum class Part { all, even, odd };
+
+/// Generations that are known apart: those since the sum last took some.
+struct SplitCounts {
+    int even = 0, odd = 0;
+};
+
+/// Coefficients and estimates, and the watts that a count of them stands for as the mean of the generations.
+struct Light {
+    const gpu::Buffer* counts = nullptr;
+    double unit = 0.0;
+};
+
+/// The photon map: a ring of generations, each [collector][RGB][bands²] int64 of spherical-harmonic coefficients and
+/// then the estimates (shared/estimates.h), int64, and their exact sum.
+class PhotonMap {
+  public:
+    /// `cloud` must outlive the map. Errors: InputError where the coefficients do not fit into the budget, or those of
+    /// one generation into a buffer of the device.
+    PhotonMap(gpu::Context& context, const cloud::Cloud& cloud, const Medium& medium, const Options& options);
+    ~PhotonMap();
+
+    /// Traces one generation into the oldest slot. Power of the lights: W·m⁻² (sun), W·m⁻²·sr⁻¹ (sky).
+    void trace(const scene::Sun& sun, const scene::Sky& sky);
+
+    /// Adds what has been traced to the sum, unless the sum would be a copy of the one buffer that holds it all.
+    void settle();
+
+    /// What the generations of a part have left; all of them are settled for it. A part needs `splitGenerations` and a
+    /// generation in it; the sum takes nothing then.
+    Light light(Part part = Part::all);
+    SplitCounts splitCounts() const;
+
+    /// Radiance of every collector towards the eye, and its light of all directions [W·m⁻²]: recorded into `commands`.
+    void reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, const Light& light);
+    /// At collectorTexel(): RGB and 1; flux and fluence of the luminance, whatever the eye.
+    const gpu::Image& radiance() const;
+    const gpu::Image& fluences() const;
+
+    /// Where the estimates begin in the counts.
+    std::uint32_t estimatorBase() const;
+    /// Luminance of a photon's power, as the mean of all generations [W].
+    double photonPower() const;
+
+    /// Without a ring: all that were traced.
+    int generationsInRing() const;
+    /// Number of the oldest generation in the ring; where nothing was traced, of the next.
+    std::uint64_t firstInRing() const;
+    std::uint64_t photonsInRing() const;
+    /// σt at density 1 [1/m] for the generations from now on. Radiance is then the mean over the ring, each generation
+    /// weighted by its extinction. Needs keepRing.
+    void setExtinction(double extinction);
+    const Counters& counters() const;
+    /// Milliseconds of each pass, summed, in the order of the passes.
+    std::vector<gpu::PassTime> times() const;
+    /// Steps of the last round that was recorded.
+    const std::vector<gpu::Step>& steps() const;
+
+    /// For tests: the running sum, and one slot of the ring, in units of `unit()`.
+    std::vector<std::int64_t> downloadSum();
+    std::vector<std::int64_t> downloadSlot(int slot) const;
+    /// Watts that one count of the ring stands for.
+    double unit() const;
+    /// ∫ σt' dV of each collector [m²], by which its coefficients are divided.
+    std::vector<double> masses() const;
+    /// From ∫ normalised density dV [voxels] to ∫ σt' dV [m²].
+    double massScale() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lumulus::photon

@@ -1,0 +1,105 @@
+#include "light/shadow_volume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lumulus::light {
+
+namespace {
+
+namespace spirv {
+#include "spirv/light/shadow_volume.comp.h"
+}  // namespace spirv
+
+/// 64 MiB of half floats.
+constexpr double maxTexels = 32.0 * 1024 * 1024;
+constexpr int groupEdge = 8;  // of shadow_volume.comp
+
+/// Columns: two unit vectors across the light and the light itself.
+glm::dmat3 lightFrame(const glm::dvec3& travel) {
+    const glm::dvec3 helper = std::abs(travel.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 across = glm::normalize(glm::cross(helper, travel));
+    return {across, glm::cross(travel, across), travel};
+}
+
+glm::dmat3 texelToTexture(const ShadowGrid& grid) {
+    return {1.0 / grid.size.x, 0, 0, 0, 1.0 / grid.size.y, 0, 0, 0, 1.0 / grid.size.z};
+}
+
+}  // namespace
+
+ShadowGrid makeShadowGrid(const cloud::Cloud& cloud, const glm::dvec3& sunTravel, double maxTexels, int reduction) {
+    const glm::dmat3 frame = lightFrame(sunTravel);
+    const glm::dmat3 voxelToLight = glm::transpose(frame) * cloud.toWorld.linear;
+    glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p =
+            voxelToLight * (glm::dvec3(corner & 1, (corner >> 1) & 1, corner >> 2) * glm::dvec3(cloud.size));
+        lower = glm::min(lower, p);
+        upper = glm::max(upper, p);
+    }
+    const glm::dvec3 extent = upper - lower;
+    ShadowGrid grid;
+    const double finest = std::cbrt(cloud.voxelVolume);
+    const double coarsest = std::cbrt(extent.x * extent.y * extent.z / maxTexels);
+    const double widest = std::max(extent.x, std::max(extent.y, extent.z)) / 2000.0;  // 3D images end at 2048 texels
+    grid.spacing = reduction * std::max(finest, std::max(coarsest, widest));
+    grid.size = glm::ivec3(glm::ceil(extent / grid.spacing)) + 1;
+    const glm::dmat3 lightToVoxel = glm::inverse(voxelToLight);
+    grid.gridToVoxel = lightToVoxel * grid.spacing;
+    grid.originVoxel = lightToVoxel * lower;
+    return grid;
+}
+
+ShadowVolume::ShadowVolume(gpu::Context& context, const cloud::Cloud& cloud)
+    : context_(context), cloud_(cloud), program_(context, "shadow_volume", spirv::shadow_volume_comp) {}
+
+void ShadowVolume::lay(Filled& filled, const glm::dvec3& sunTravel, double extinction, int reduction) {
+    filled.grid = makeShadowGrid(cloud_, sunTravel, maxTexels, reduction);
+    filled.step = static_cast<float>(extinction * filled.grid.spacing);
+    filled.rows = 0;
+    if (!filled.image || filled.image->extent() != filled.grid.size)
+        filled.image.emplace(context_, "shadow volume", filled.grid.size, VK_FORMAT_R16_SFLOAT);
+}
+
+void ShadowVolume::fill(gpu::Commands& commands, Filled& filled, int rows) {
+    const ShadowGrid& grid = filled.grid;
+    const auto groups = [](int count) { return static_cast<std::uint32_t>((count + groupEdge - 1) / groupEdge); };
+    commands.pass("shadow volume");
+    commands.dispatch(program_, {{"density", cloud_.density, gpu::Sampler::linear}, {"shadowVolume", *filled.image}},
+                      shared::ShadowVolumePush{glm::mat3(grid.gridToVoxel), glm::vec3(grid.originVoxel),
+                                               1.0F / glm::vec3(cloud_.size), grid.size, filled.step, filled.rows},
+                      {groups(grid.size.x), groups(rows), 1});
+    filled.rows += rows;
+}
+
+void ShadowVolume::record(gpu::Commands& commands, const glm::dvec3& sunTravel, double extinction, int reduction) {
+    next_.image.reset();
+    lay(shown_, sunTravel, extinction, reduction);
+    fill(commands, shown_, shown_.grid.size.y);
+}
+
+void ShadowVolume::begin(const glm::dvec3& sunTravel, double extinction) {
+    lay(next_, sunTravel, extinction, 1);
+}
+
+bool ShadowVolume::recordPart(gpu::Commands& commands, double share) {
+    const int all = next_.grid.size.y;
+    const int wanted = static_cast<int>(share * all / groupEdge + 1.0) * groupEdge;
+    fill(commands, next_, std::min(wanted, all - next_.rows));
+    if (next_.rows < all) return false;
+    std::swap(shown_, next_);
+    return true;
+}
+
+glm::mat3 ShadowVolume::voxelToTexture() const {
+    return glm::mat3(texelToTexture(shown_.grid) * glm::inverse(shown_.grid.gridToVoxel));
+}
+
+glm::vec3 ShadowVolume::textureOffset() const {
+    const ShadowGrid& grid = shown_.grid;
+    return glm::vec3(texelToTexture(grid) * (glm::dvec3(0.5) - glm::inverse(grid.gridToVoxel) * grid.originVoxel));
+}
+
+}  // namespace lumulus::light

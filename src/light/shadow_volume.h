@@ -1,0 +1,63 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "cloud/cloud.h"
+#include "gpu/commands.h"
+#include "shared/draw.h"
+
+namespace lumulus::light {
+
+/// Where the optical-depth grid lies for one direction of the sun.
+struct ShadowGrid {
+    glm::ivec3 size{0};
+    glm::dmat3 gridToVoxel{1.0};  ///< voxels per texel; the third axis runs along the light
+    glm::dvec3 originVoxel{0.0};  ///< middle of texel (0,0,0)
+    double spacing = 0.0;         ///< metres between texels
+};
+
+/// A grid that covers the cloud's box, as fine as its voxels where that stays within `maxTexels`, or `reduction` times
+/// as coarse.
+ShadowGrid makeShadowGrid(const cloud::Cloud& cloud, const glm::dvec3& sunTravel, double maxTexels, int reduction = 1);
+
+/// Optical depth towards the sun through the whole cloud. Made anew for each direction of the sun; not at all for a
+/// scene without one.
+class ShadowVolume {
+  public:
+    ShadowVolume(gpu::Context& context, const cloud::Cloud& cloud);
+
+    /// Records what fills the grid. `extinction` is σt at density 1 [1/m]. The work falls with the third power of
+    /// `reduction`.
+    void record(gpu::Commands& commands, const glm::dvec3& sunTravel, double extinction, int reduction = 1);
+
+    /// Begins another grid, not reduced, beside the one that is shown.
+    void begin(const glm::dvec3& sunTravel, double extinction);
+    /// After begin(): records what fills about this share (0 to 1) of that grid. True when that was the rest: it takes
+    /// the place of the other, with the same values as record() makes.
+    bool recordPart(gpu::Commands& commands, double share);
+
+    /// Valid after record().
+    const gpu::Image& image() const { return *shown_.image; }
+    /// Voxel coordinates → texture coordinates of the grid.
+    glm::mat3 voxelToTexture() const;
+    glm::vec3 textureOffset() const;
+
+  private:
+    struct Filled {
+        ShadowGrid grid;
+        float step = 0.0F;  // optical depth of one texel's length at density 1
+        int rows = 0;       // of columns that are filled
+        std::optional<gpu::Image> image;
+    };
+
+    void lay(Filled& filled, const glm::dvec3& sunTravel, double extinction, int reduction);
+    void fill(gpu::Commands& commands, Filled& filled, int rows);
+
+    gpu::Context& context_;
+    const cloud::Cloud& cloud_;
+    gpu::Program<shared::ShadowVolumePush> program_;
+    Filled shown_, next_;
+};
+
+}  // namespace lumulus::light

@@ -1,0 +1,160 @@
+#include "medium/phase_function.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "medium/moments.h"
+#include "medium/quadrature.h"
+
+namespace lumulus::phase {
+
+namespace {
+
+using std::numbers::pi;
+
+/// 1 − cos θ and 1 + cos θ, each with all its digits.
+struct Chords {
+    double minus;
+    double plus;
+};
+
+double henyeyGreenstein(double g, Chords c) {
+    const double a = std::abs(g);
+    const double b = (1.0 - a) * (1.0 - a) + 2.0 * a * (g < 0.0 ? c.plus : c.minus);
+    return (1.0 - a) * (1.0 + a) / (4.0 * pi * b * std::sqrt(b));
+}
+
+double draine(double g, double alpha, Chords c) {
+    const double cosine = 1.0 - c.minus;
+    return henyeyGreenstein(g, c) * (1.0 + alpha * cosine * cosine) / (1.0 + alpha * (1.0 + 2.0 * g * g) / 3.0);
+}
+
+double schlick(double k, Chords c) {
+    const double a = std::abs(k);
+    const double b = (1.0 - a) + a * (k < 0.0 ? c.plus : c.minus);
+    return (1.0 - a) * (1.0 + a) / (4.0 * pi * b * b);
+}
+
+double powerLobe(int n, Chords c) {
+    return (n + 1) / (4.0 * pi) * std::pow(0.5 * c.plus, n);
+}
+
+std::vector<double> mix(std::vector<double> a, const std::vector<double>& b, double weight) {
+    for (std::size_t l = 0; l < a.size(); ++l) {
+        a[l] = (1.0 - weight) * a[l] + weight * b[l];
+    }
+    return a;
+}
+
+void requireAsymmetry(double g, double limit, const char* why) {
+    if (!(std::abs(g) < limit)) {
+        throw InputError(fmt::format("phase g = {} is out of range", g), "phase.g",
+                         fmt::format("give a value between -{0} and {0}{1}", limit, why));
+    }
+}
+
+}  // namespace
+
+DropletFit dropletFit(double diameter) {
+    DropletFit fit;
+    fit.gHg = std::exp(-0.0990567 / (diameter - 1.67154));
+    fit.gDraine = std::exp(-2.20679 / (diameter + 3.91029) - 0.428934);
+    fit.alpha = std::exp(3.62489 - 8.29288 / (diameter + 5.52825));
+    fit.weight = std::exp(-0.599085 / (diameter - 0.641583) - 0.665888);
+    return fit;
+}
+
+double schlickK(double g) {
+    return g * (1.55 - 0.55 * g * g);
+}
+
+PhaseFunction::PhaseFunction(const scene::Phase& phase) : model_(phase.model) {
+    switch (model_) {
+        case scene::PhaseModel::henyeyGreenstein:
+            requireAsymmetry(phase.g, 1.0, ", both excluded");
+            g_ = phase.g;
+            lobeWidth_ = std::min(lobeWidth_, 1.0 - std::abs(g_));
+            break;
+        case scene::PhaseModel::schlick:
+            // k(g) = 1 at g = (√(1+4/.55)−1)/2 = .93813
+            requireAsymmetry(phase.g, 0.938, ", or the model henyey_greenstein, which is defined beyond");
+            k_ = schlickK(phase.g);
+            lobeWidth_ = std::min(lobeWidth_, std::sqrt(1.0 - std::abs(k_)));
+            break;
+        case scene::PhaseModel::droplet:
+            if (!(phase.dropletDiameter >= 5.0 && phase.dropletDiameter <= 50.0)) {
+                throw InputError(fmt::format("droplet diameter {} is out of range", phase.dropletDiameter),
+                                 "phase.droplet_diameter", "give a diameter from 5 to 50 micrometres");
+            }
+            fit_ = dropletFit(phase.dropletDiameter);
+            lobeWidth_ = std::min(lobeWidth_, 1.0 - fit_.gHg);
+            break;
+        case scene::PhaseModel::rayleigh:
+        case scene::PhaseModel::hazy:
+        case scene::PhaseModel::murky:
+            break;
+    }
+}
+
+double PhaseFunction::evaluateAngle(double theta) const {
+    const double s = std::sin(0.5 * theta);
+    const double c = std::cos(0.5 * theta);
+    return evaluate(2.0 * s * s, 2.0 * c * c);
+}
+
+double PhaseFunction::evaluate(double oneMinusCos, double onePlusCos) const {
+    const Chords c{oneMinusCos, onePlusCos};
+    switch (model_) {
+        case scene::PhaseModel::henyeyGreenstein:
+            return henyeyGreenstein(g_, c);
+        case scene::PhaseModel::schlick:
+            return schlick(k_, c);
+        case scene::PhaseModel::rayleigh:
+            return draine(0.0, 1.0, c);
+        case scene::PhaseModel::hazy:
+            return 0.5 / (4.0 * pi) + 0.5 * powerLobe(8, c);
+        case scene::PhaseModel::murky:
+            return 0.5 / (4.0 * pi) + 0.5 * powerLobe(32, c);
+        case scene::PhaseModel::droplet:
+            return (1.0 - fit_.weight) * henyeyGreenstein(fit_.gHg, c) +
+                   fit_.weight * draine(fit_.gDraine, fit_.alpha, c);
+    }
+    assert(false);
+    return 0.0;
+}
+
+std::vector<double> PhaseFunction::moments(int count) const {
+    const auto isotropic = [count] { return hgMoments(0.0, count); };
+    switch (model_) {
+        case scene::PhaseModel::henyeyGreenstein:
+            return hgMoments(g_, count);
+        case scene::PhaseModel::schlick:
+            return schlickMoments(k_, count);
+        case scene::PhaseModel::rayleigh:
+            return draineMoments(0.0, 1.0, count);
+        case scene::PhaseModel::hazy:
+            return mix(isotropic(), powerLobeMoments(8, count), 0.5);
+        case scene::PhaseModel::murky:
+            return mix(isotropic(), powerLobeMoments(32, count), 0.5);
+        case scene::PhaseModel::droplet:
+            return mix(hgMoments(fit_.gHg, count), draineMoments(fit_.gDraine, fit_.alpha, count), fit_.weight);
+    }
+    assert(false);
+    return {};
+}
+
+double PhaseFunction::forwardFraction(double thetaCut) const {
+    return forwardMoments(thetaCut, 1).front();
+}
+
+std::vector<double> PhaseFunction::forwardMoments(double thetaCut, int count) const {
+    const auto density = [this](double theta) { return evaluateAngle(theta); };
+    return legendreMoments(density, 0.0, thetaCut, 0.5 * lobeWidth_, count);
+}
+
+}  // namespace lumulus::phase

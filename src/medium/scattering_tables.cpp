@@ -1,0 +1,74 @@
+#include "medium/scattering_tables.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "medium/axes.h"
+#include "medium/inverse_cdf.h"
+#include "medium/phase_function.h"
+#include "medium/single_scattering.h"
+#include "medium/sun_disc.h"
+#include "shared/phase_table.h"
+
+namespace lumulus::phase {
+
+namespace {
+
+std::vector<float> makePhaseTable(const PhaseFunction& phase, double angleScale, double discRadius) {
+    std::vector<float> table(static_cast<std::size_t>(shared::phaseTableSize));
+    tbb::parallel_for(std::size_t{0}, table.size(), [&](std::size_t i) {
+        const double theta = axisToAngle(static_cast<double>(i) / static_cast<double>(table.size() - 1), angleScale);
+        table[i] = static_cast<float>(std::log(averageOverDisc(phase, theta, discRadius)));
+    });
+    return table;
+}
+
+void addSingleScattering(ScatteringTables& tables, const PhaseFunction& phase, double cut, const glm::dvec3& albedo,
+                         double discRadius) {
+    const SingleScatteringSeries series = makeSingleScatteringSeries(phase, cut, discRadius);
+    const glm::dvec3 extinctionScale = 1.0 - albedo * series.inside[0];
+    // e^−20 of the light is left there; a nearly conservative forward lobe lasts longer than any cloud is deep
+    const double slowest = std::min({extinctionScale.r, extinctionScale.g, extinctionScale.b});
+    const double tauMaximum = std::min(20.0 / slowest, 1e5);
+    SingleScatteringTables forwardCut =
+        makeSingleScatteringTables(series, albedo, static_cast<double>(tables.angleScale), tauMaximum);
+    tables.singleScatterH = std::move(forwardCut.h);
+    tables.singleScatterK = std::move(forwardCut.k);
+    tables.tauMaximum = static_cast<float>(tauMaximum);
+    tables.extinctionScale = glm::vec3(extinctionScale);
+}
+
+}  // namespace
+
+ScatteringTables makeScatteringTables(const scene::Phase& phase, double cutRadians, const glm::dvec3& albedo, int bands,
+                                      double sunAngularDiameterRadians) {
+    assert(cutRadians >= 0.0 && cutRadians < std::numbers::pi && bands >= 1 && sunAngularDiameterRadians >= 0.0);
+    const PhaseFunction function(phase);
+    const double discRadius = 0.5 * sunAngularDiameterRadians;
+    const std::vector<double> moments = function.moments(std::max(bands, 2));
+    const std::vector<double> forward = function.forwardMoments(cutRadians, bands);
+
+    ScatteringTables tables;
+    tables.forwardFraction = static_cast<float>(forward[0]);
+    tables.scatterFraction = static_cast<float>(1.0 - forward[0]);
+    for (std::size_t l = 0; l < forward.size(); ++l) {
+        tables.bandMoments.push_back(static_cast<float>((moments[l] - forward[l]) / (1.0 - forward[0])));
+    }
+    tables.analyticHg = phase.model == scene::PhaseModel::henyeyGreenstein;
+    tables.g = static_cast<float>(tables.analyticHg ? phase.g : moments[1]);
+    if (!tables.analyticHg) {
+        tables.inverseCdf = makeInverseCdf(function, cutRadians);
+    }
+    tables.angleScale = static_cast<float>(function.lobeWidth());
+    tables.phaseTable = makePhaseTable(function, static_cast<double>(tables.angleScale), discRadius);
+    if (cutRadians > 0.0) {
+        addSingleScattering(tables, function, cutRadians, albedo, discRadius);
+    }
+    return tables;
+}
+
+}  // namespace lumulus::phase

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "base/interrupt.h"
+#include "base/progress.h"
+#include "scene/scene.h"
+#include "view/view.h"
+
+namespace lumulus {
+
+struct RendererOptions {
+    std::string device;        ///< name (part of it) or index; empty: the best one
+    bool validation = false;   ///< Vulkan validation and synchronisation validation; messages end up in `Statistics`
+    Report report = noReport;  ///< told of loading, preparing and drawing; what it throws ends that work
+    Check check = stopIfInterrupted;  ///< asked between the steps of tracing and drawing; what it throws ends that work
+    bool keepRing = false;            ///< generations beyond those that the scene asks for replace the oldest
+    /// The photons are not counted beforehand: generations may go on beyond the scene's, and preview() can be asked.
+    /// Not with a ring.
+    bool progressive = false;
+};
+
+struct PassTime {
+    std::string name;
+    double milliseconds = 0.0;
+};
+
+/// What `--stats` reports.
+struct Statistics {
+    std::string device;
+    double loadSeconds = 0.0, prepareSeconds = 0.0, traceSeconds = 0.0, drawSeconds = 0.0;
+    std::uint64_t photons = 0;      ///< emitted by all generations in the ring
+    std::uint64_t generations = 0;  ///< in the ring
+    std::uint64_t events = 0;       ///< real collisions
+    std::uint64_t nullCollisions = 0;
+    std::uint64_t absorbed = 0, escaped = 0, lost = 0;  ///< photons by their end
+    std::uint64_t saturated = 0;                        ///< coefficients that met the fixed-point limit
+    std::uint64_t collectors = 0;
+    std::uint64_t gpuBytes = 0;
+    std::vector<PassTime> passes;  ///< sums over all generations, in the order of the frame
+    std::vector<std::string> warnings;
+    std::vector<std::string> validationMessages;
+};
+
+/// Some rows of the picture by the photons of the even and of the odd generations, which have none in common: what they
+/// differ by is noise.
+struct Preview {
+    LayeredImage even, odd;
+    std::vector<int> rows;                        ///< that are drawn
+    int evenGenerations = 0, oddGenerations = 0;  ///< in the two pictures
+    double forecastSeconds = 0.0;                 ///< that draw() would take now
+};
+
+/// The photon generations that the next picture shows: `render` repeats it with these as `photon_map.first_generation`,
+/// `photon_map.generations` and (as the product of the two last) `photon_map.photons`.
+struct Generations {
+    std::uint64_t first = 0;
+    int count = 0;
+    int current = 0;  ///< of them, traced under the light and extinction of now
+    std::uint64_t photonsEach = 0;
+
+    std::uint64_t photons() const { return photonsEach * static_cast<std::uint64_t>(count); }
+};
+
+/// Owns the device, the cloud and the photon map, and makes frames.
+/// Errors: InputError for bad scenes, Error for what fails while running and where interrupted.
+class Renderer {
+  public:
+    Renderer(const scene::Scene& scene, const RendererOptions& options);
+    ~Renderer();
+
+    /// Generations that the scene asks for (0 where no photon is needed).
+    int generationsWanted() const;
+    /// Traces one generation into the oldest slot of the ring.
+    void traceGeneration();
+    /// Draws the view of the scene: layers as in the documented EXR contract.
+    LayeredImage draw();
+    /// For progressive rendering, from two generations on after the last draw().
+    Preview preview();
+    /// The same for any view: all views share the photons.
+    LayeredImage draw(const View& view);
+    /// A picture of another renderer (layers R, G and B) as seen through the scene's fog; as it is where there is none.
+    /// `depth` as the scene's `fog.depth` says, rows from the top. Both have the size of the view.
+    LayeredImage throughFog(const View& view, LayeredImage picture, std::vector<float> depth);
+    /// The view of the scene.
+    View sceneView() const;
+    /// Rays along each side of a pixel of the view.
+    int raysAcross(const View& view) const;
+    /// Where the cloud is, before any offset.
+    const Bounds& bounds() const;
+
+    /// What the ring holds. Changes of light and medium age in with the generations traced from then on; what is drawn
+    /// without photons (the sun's first turn, transmittance) changes at once. They need `keepRing`.
+    Generations generations() const;
+    /// Both tell whether anything changed.
+    /// Errors: InputError where the scene was made without a sun.
+    bool setSun(const glm::dvec3& directionTo, const glm::dvec3& irradiance);
+    /// `extinction` as in the scene [1/m]. Errors: InputError where it is 0, or where nothing is there to be extinct.
+    bool setExtinction(double extinction);
+    /// Where the sun has moved, the next picture may show its first scattering by a grid this many times as coarse (≥
+    /// 1): making it whole can take longer than the picture. It stays so until sharpenSun() is done, or a picture is
+    /// drawn with less allowed.
+    void allowSunReduction(int reduction);
+    /// Of what the last picture showed; 1: none, 0: the next one has to make the sun's grid.
+    int sunReduction() const;
+    /// Does about this share (0 to 1) of what is missing after a picture with a reduction. True where nothing is.
+    bool sharpenSun(double share);
+    /// Moves the cloud from where the scene has it [m]; light from infinity does not see it.
+    void setOffset(const glm::dvec3& offset);
+
+    Statistics statistics() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lumulus

@@ -1,0 +1,62 @@
+#include "view/view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace lumulus {
+namespace {
+
+void applyOrientation(Camera& camera, const glm::dquat& orientation) {
+    const double length = glm::length(orientation);
+    if (!(length > 1e-9) || !std::isfinite(length))
+        throw InputError("the orientation must have a length", "camera.orientation", "give a quaternion [w, x, y, z]");
+    const glm::dmat3 turn = glm::mat3_cast(orientation / length);
+    camera.axes = {turn[0], turn[1], -turn[2]};
+}
+
+void applyFrustum(Camera& camera, const Frustum& frustum) {
+    if (camera.projection != scene::Projection::perspective)
+        throw InputError("a frustum is for perspective views", "camera.frustum", "leave it out");
+    const double width = frustum.right - frustum.left, height = frustum.top - frustum.bottom;
+    if (!(width > 0.0) || !(height > 0.0))
+        throw InputError("the frustum is empty", "camera.frustum", "give left < right and bottom < top");
+    camera.tanHalfFov = 0.5 * height;
+    camera.pixelAspect = (width / camera.width) / (height / camera.height);
+    camera.middle = {0.5 * (frustum.left + frustum.right), 0.5 * (frustum.bottom + frustum.top)};
+}
+
+}  // namespace
+
+Camera makeCamera(const View& view, const Bounds& cloud) {
+    Camera camera = makeCamera(view.camera, view.image, cloud);
+    if (view.orientation) applyOrientation(camera, *view.orientation);
+    if (view.frustum) applyFrustum(camera, *view.frustum);
+    return camera;
+}
+
+Tile drawnTile(const View& view) {
+    const Tile tile = view.tile.value_or(Tile{0, 0, view.image.width, view.image.height});
+    const bool within = tile.x >= 0 && tile.y >= 0 && tile.width > 0 && tile.height > 0 &&
+                        tile.x <= view.image.width - tile.width && tile.y <= view.image.height - tile.height;
+    if (!within) throw InputError("the tile is not within the picture", "tile", "give [x, y, width, height] in pixels");
+    return tile;
+}
+
+LayeredImage cropped(const LayeredImage& image, const Tile& tile) {
+    LayeredImage part;
+    part.width = tile.width;
+    part.height = tile.height;
+    part.attributes = image.attributes;
+    for (const auto& [name, values] : image.layers) {
+        std::vector<float>& layer = part.layer(name);
+        for (int y = 0; y < tile.height; ++y) {
+            const auto from = values.begin() + static_cast<std::ptrdiff_t>(tile.y + y) * image.width + tile.x;
+            std::copy_n(from, tile.width, layer.begin() + static_cast<std::ptrdiff_t>(y) * tile.width);
+        }
+    }
+    return part;
+}
+
+}  // namespace lumulus

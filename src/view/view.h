@@ -1,0 +1,50 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+
+#include "base/image.h"
+#include "scene/scene.h"
+#include "view/camera.h"
+
+namespace lumulus {
+
+/// Edges of an off-axis pyramid of view as tangents, seen from the eye: left < right, bottom < top.
+struct Frustum {
+    double left = -1.0, right = 1.0, bottom = -1.0, top = 1.0;
+
+    bool operator==(const Frustum&) const = default;
+};
+
+/// A part of a picture: pixels from the upper left corner of the whole.
+struct Tile {
+    int x = 0, y = 0, width = 1, height = 1;
+
+    bool operator==(const Tile&) const = default;
+};
+
+/// What a picture shows, and how much of it is wanted.
+struct View {
+    scene::Camera camera;
+    scene::Image image;                     ///< the whole picture, also where only a tile is drawn
+    std::optional<glm::dquat> orientation;  ///< turns camera axes (+X right, +Y up, −Z forward) into the world's;
+                                            ///< instead of target and up
+    std::optional<Frustum> frustum;         ///< instead of the angle; perspective only
+    std::optional<Tile> tile;               ///< drawn alone, bit for bit as in the whole
+    int mostRays = 4;                       ///< along each side of a pixel, where pixels are larger than voxels
+
+    bool operator==(const View&) const = default;
+};
+
+/// The camera of a view. Errors: those of the makeCamera of a scene; InputError for an orientation of no length, an
+/// empty frustum or one for another projection.
+Camera makeCamera(const View& view, const Bounds& cloud);
+
+/// The part that is drawn: the tile, or everything. Errors: InputError for a tile that is not within the picture.
+Tile drawnTile(const View& view);
+
+/// A part of a picture, all layers.
+LayeredImage cropped(const LayeredImage& image, const Tile& tile);
+
+}  // namespace lumulus
