@@ -11,6 +11,7 @@ layout(local_size_x = 16, local_size_y = 4) in;
 layout(constant_id = 0) const bool FORWARD_CUT = false;
 layout(constant_id = 1) const bool SUN = true;      // the sun shines
 layout(constant_id = 2) const bool PHOTONS = true;  // there is a photon map
+layout(constant_id = 4) const bool MANY = false;     // more than one instance
 layout(constant_id = 3) const bool GREY = false;     // the albedo is the same for all colours
 
 layout(binding = 0, scalar) readonly buffer Params { DrawParams storedParams; };
@@ -54,25 +55,27 @@ Chord chordThrough(uint entry, vec3 origin, vec3 direction) {
     return Chord(place, max(along - halfChord, 0.0), squared > 0.0 ? along + halfChord : 0.0);
 }
 
-vec3 voxelAlong(vec3 origin, vec3 direction, float distance) {
-    return params.field.eyeVoxel + params.field.worldToVoxel * (origin + distance * direction);
+vec3 voxelAlong(InstanceParams instance, vec3 origin, vec3 direction, float distance) {
+    return instance.eyeVoxel + instance.worldToVoxel * (origin + distance * direction);
 }
 
 void addChord(inout RayLight ray, SunView sun, Chord chord, vec3 origin, vec3 direction) {
-    const float share = imageLoad(billboards, chord.place + ivec2(1, 0)).x;
-    const vec3 middle = voxelAlong(origin, direction, 0.5 * (chord.near + chord.far));
-    const float found = densityAt(density, middle, 1.0 / params.field.size);
-    const float thickness = params.field.extinction * share * found * (chord.far - chord.near);
-    const vec3 seen = voxelAlong(origin, direction, mix(chord.near, chord.far, seenAt(thickness, 0.5)));
-    addSegment(ray, sun, chord.near, chord.far, thickness, seen, SUN ? depthToSun(seen) : 0.0);
+    const vec2 billboard = imageLoad(billboards, chord.place + ivec2(1, 0)).xy;  // share, instance
+    const InstanceParams instance = instanceAt(int(billboard.y));
+    if (MANY) sun = sunView(instance, direction);
+    const vec3 middle = voxelAlong(instance, origin, direction, 0.5 * (chord.near + chord.far));
+    const float found = densityIn(instance, density, middle);
+    const float thickness = instance.extinction * billboard.x * found * (chord.far - chord.near);
+    const vec3 seen = voxelAlong(instance, origin, direction, mix(chord.near, chord.far, seenAt(thickness, 0.5)));
+    addSegment(ray, instance, sun, chord.near, chord.far, thickness, seen, SUN ? depthToSun(instance, seen) : 0.0);
 }
 
 /// Through the list from `next` to `last`. The billboard that is met next is looked for first and lit only then: lanes that
 /// have nothing to light would wait for those that have.
 RayLight throughList(uint next, uint last, SunView sun, vec3 origin, vec3 direction) {
     RayLight ray = emptyRay();
-    const float opaque = opaqueDepth();
-    while (next < last && ray.depth < opaque) {
+    const float opaque = opaqueDepth(onlyInstance);
+    while (next < last && (MANY ? !isOpaque(ray) : ray.depth < opaque)) {
         Chord chord = chordThrough(next++, origin, direction);
         while (!isHit(chord) && next < last) chord = chordThrough(next++, origin, direction);
         if (isHit(chord)) addChord(ray, sun, chord, origin, direction);
@@ -82,6 +85,7 @@ RayLight throughList(uint next, uint last, SunView sun, vec3 origin, vec3 direct
 
 void main() {
     params = storedParams;
+    loadInstances();
     ivec2 pixel;
     int slot;
     if (!drawnPixel(pixel, slot)) return;
@@ -92,7 +96,8 @@ void main() {
         vec3 origin, direction;
         viewRay(params.view, pixel * params.samples + ivec2(part % params.samples, part / params.samples),
                 params.samples, origin, direction);
-        const SunView sun = sunView(params.light, direction);
+        SunView sun;
+        if (!MANY) sun = sunView(onlyInstance, direction);
         addRay(sum, throughList(tileOffsets[tile], last, sun, origin, direction), direction);
     }
     const Pixel finished = finishedPixel(sum, params.samples * params.samples);

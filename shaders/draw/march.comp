@@ -11,6 +11,7 @@ layout(local_size_x = 16, local_size_y = 4) in;
 layout(constant_id = 0) const bool FORWARD_CUT = false;
 layout(constant_id = 1) const bool SUN = true;      // the sun shines
 layout(constant_id = 2) const bool PHOTONS = true;  // there is a photon map
+layout(constant_id = 4) const bool MANY = false;     // more than one instance
 layout(constant_id = 3) const bool GREY = false;     // the albedo is the same for all colours
 
 layout(binding = 0, scalar) readonly buffer Params { DrawParams storedParams; };
@@ -36,40 +37,8 @@ const float STEP_THICKNESS = 0.5;
 /// Steps grow with the cube root of what the cloud before them hides, where an error of theirs weighs less, up to so much.
 const float GROWTH = 1.0 / 3.0, MOST_GROWTH = 4.0;
 
-/// A view ray in voxels: start + velocity · metres.
-struct ViewLine {
-    vec3 start, velocity;
-    vec3 inverse;  // of the velocity
-    bvec3 ahead;
-};
-
-ViewLine viewLine(vec3 start, vec3 velocity) {
-    const bvec3 aside = lessThan(abs(velocity), vec3(1.0e-30));  // never meets those faces
-    velocity = mix(velocity, vec3(0.0), aside);
-    return ViewLine(start, velocity, 1.0 / mix(velocity, vec3(1.0e-30), aside), greaterThan(velocity, vec3(0.0)));
-}
-
-/// Distances [m] between which the line is in the volume; empty where first >= second.
-vec2 clipToVolume(ViewLine line) {
-    const vec3 a = -line.start * line.inverse, b = (params.field.size - line.start) * line.inverse;
-    const vec3 low = min(a, b), high = max(a, b);
-    return vec2(max(max(low.x, low.y), max(low.z, 0.0)), min(high.x, min(high.y, high.z)));
-}
-
-/// From a cell over the `reach` next ones on all sides: the distance at which the line leaves them, and the cell there.
-float leaveCells(ViewLine line, inout ivec3 cell, int reach) {
-    const ivec3 beyond = cell + mix(ivec3(-reach - 1), ivec3(reach + 1), line.ahead);
-    const vec3 face = vec3(cell + mix(ivec3(-reach), ivec3(reach + 1), line.ahead)) * params.field.cellSize;
-    const vec3 distances =
-        mix((face - line.start) * line.inverse, vec3(3.4e38), equal(line.velocity, vec3(0.0)));
-    const float leave = min(distances.x, min(distances.y, distances.z));
-    const vec3 end = floor((line.start + line.velocity * leave) / params.field.cellSize);
-    cell = mix(clamp(ivec3(end), cell - reach, cell + reach), beyond, equal(distances, vec3(leave)));
-    return leave;
-}
-
 /// Where a march is: the cell that the line leaves at `leave`, and the steps that are left in it.
-struct Walk {
+struct March {
     ivec3 cell;
     float leave;        // of the last cell [m]; where the next one begins
     float begin, step;  // of the steps in it [m]
@@ -77,61 +46,86 @@ struct Walk {
     int crossed;        // cells
 };
 
-bool isOver(Walk walk, float end, ivec3 last) {
+bool isOver(March walk, float end, ivec3 last) {
     return walk.leave >= end || walk.crossed >= 8192 || any(lessThan(walk.cell, ivec3(0))) ||
            any(greaterThan(walk.cell, last));
 }
 
 /// Goes through the next cell, or through empty ones: it has no steps then. `depth` is what hides it.
-void enterCell(inout Walk walk, ViewLine line, float end, float depth) {
-    const float majorant = imageLoad(majorants, walk.cell).r;
+void enterCell(inout March walk, InstanceParams instance, Line line, float end, float depth) {
+    const float majorant = imageLoad(majorants, MANY ? instance.cellOrigin + walk.cell : walk.cell).r;
     walk.begin = walk.leave;
-    walk.leave = max(leaveCells(line, walk.cell, int(max(-majorant - 1.0, 0.0))), walk.begin);
+    walk.leave = max(leaveCells(line, walk.cell, emptyReach(majorant), instance.cellSize), walk.begin);
     const float span = min(walk.leave, end) - walk.begin;
-    const float growth = min(exp(GROWTH * leastExtinctionScale() * depth), MOST_GROWTH);
-    const float thickest = majorant * params.field.extinction / STEP_THICKNESS;
-    const float steps = ceil(span * max(1.0 / params.field.voxelLength, thickest) / growth);
+    const float growth = min(exp(GROWTH * leastExtinctionScale(instance) * depth), MOST_GROWTH);
+    const float thickest = majorant * instance.extinction / STEP_THICKNESS;
+    const float steps = ceil(span * max(1.0 / instance.voxelLength, thickest) / growth);
     walk.count = majorant > 0.0 && span > 0.0 ? clamp(steps, 1.0, 512.0) : 0.0;
     walk.step = span / max(walk.count, 1.0);
     walk.done = 0.0;
     ++walk.crossed;
 }
 
-/// The light of one ray; `offset` is where in its steps it looks. Cells, then steps, are gone through until one has
-/// density, and only that is lit: lanes that have nothing to light would wait for those that have.
-RayLight march(vec3 origin, vec3 direction, float offset) {
-    const SunView sun = sunView(params.light, direction);
-    const ViewLine line = viewLine(params.field.eyeVoxel + params.field.worldToVoxel * origin,
-                                   params.field.worldToVoxel * direction);
-    RayLight ray = emptyRay();
-    const vec2 inside = clipToVolume(line);
-    const float opaque = opaqueDepth();
-    const ivec3 last = params.field.cells - 1;
-    const ivec3 first = ivec3(floor((line.start + line.velocity * inside.x) / params.field.cellSize));
-    Walk walk = Walk(clamp(first, ivec3(0), last), inside.x, inside.x, 0.0, 0.0, 0.0, 0);
+/// Adds the light of a ray between two distances in one instance; `offset` is where in its steps it looks. Cells, then steps,
+/// are gone through until one has density, and only that is lit: lanes that have nothing to light would wait for those that
+/// have.
+void marchThrough(InstanceParams instance, vec3 direction, Line line, vec2 inside, float offset, inout RayLight ray) {
+    const SunView sun = sunView(instance, direction);
+    const float opaque = opaqueDepth(instance);
+    const ivec3 last = instance.cells - 1;
+    const ivec3 first = ivec3(floor((line.start + line.velocity * inside.x) / instance.cellSize));
+    March walk = March(clamp(first, ivec3(0), last), inside.x, inside.x, 0.0, 0.0, 0.0, 0);
     bool more = inside.x < inside.y;
     while (more) {
         float found = 0.0;
         while (more && found <= 0.0) {
-            while (walk.done >= walk.count && !isOver(walk, inside.y, last)) enterCell(walk, line, inside.y, ray.depth);
+            while (walk.done >= walk.count && !isOver(walk, inside.y, last))
+                enterCell(walk, instance, line, inside.y, ray.depth);
             more = walk.done < walk.count;
             const float at = walk.begin + (walk.done + offset) * walk.step;
-            found = more ? densityAt(density, line.start + line.velocity * at, 1.0 / params.field.size) : 0.0;
+            found = more ? densityIn(instance, density, line.start + line.velocity * at) : 0.0;
             walk.done += 1.0;
         }
         if (found > 0.0) {
             const float near = walk.begin + (walk.done - 1.0) * walk.step;
-            const float thickness = found * params.field.extinction * walk.step;
+            const float thickness = found * instance.extinction * walk.step;
             const vec3 seen = line.start + line.velocity * (near + seenAt(thickness, offset) * walk.step);
-            addSegment(ray, sun, near, near + walk.step, thickness, seen, SUN ? depthToSun(seen) : 0.0);
+            addSegment(ray, instance, sun, near, near + walk.step, thickness, seen,
+                       SUN ? depthToSun(instance, seen) : 0.0);
         }
-        more = more && ray.depth < opaque;
+        if (MANY)
+            more = more && !isOpaque(ray);
+        else
+            more = more && ray.depth < opaque;
+    }
+}
+
+/// The light of one ray: through the one instance, or through all of them, segment by segment.
+RayLight march(vec3 origin, vec3 direction, float offset) {
+    RayLight ray = emptyRay();
+    if (!MANY) {
+        const Line line = lineIn(onlyInstance, origin, direction);
+        marchThrough(onlyInstance, direction, line, clipToVolume(line, onlyInstance.size), offset, ray);
+        return ray;
+    }
+    float begin = 0.0, end = segmentEnd(origin, direction, begin);
+    while (end > begin && !isOpaque(ray)) {
+        for (int i = 0; i < params.instances; ++i) {
+            const InstanceParams instance = instanceAt(i);
+            const Line line = lineIn(instance, origin, direction);
+            const vec2 inside = clipToVolume(line, instance.size);
+            if (inside.x < inside.y && inside.x <= begin && inside.y > begin)
+                marchThrough(instance, direction, line, vec2(begin, end), offset, ray);
+        }
+        begin = end;
+        end = segmentEnd(origin, direction, begin);
     }
     return ray;
 }
 
 void main() {
     params = storedParams;
+    loadInstances();
     ivec2 pixel;
     int slot;
     if (!drawnPixel(pixel, slot)) return;

@@ -2,6 +2,7 @@
 #ifndef LUMULUS_LIB_EMISSION
 #define LUMULUS_LIB_EMISSION
 
+#include "shared/environment.h"
 #include "shared/phase.h"
 
 /// x, y or z, by weights; u in [0,1).
@@ -23,9 +24,9 @@ vec3 lightAxis(TraceParams params, bool ofSun, float choice, float side) {
     return ofSun ? params.sunDirection : inwards;
 }
 
-/// 1 − cos of the angle to lightAxis(). Sky: cos² θ uniform, without cancellation.
+/// 1 − cos of the angle to lightAxis().
 float lightOneMinusCos(TraceParams params, bool ofSun, float u) {
-    return ofSun ? params.sunCone * u : u / (1.0 + sqrt(1.0 - u));
+    return ofSun ? params.sunCone * u : environmentOneMinusCos(u);
 }
 
 /// Where light of this direction enters, in voxel coordinates: uniform over the projection of the box (sun), or over

@@ -1,65 +1,83 @@
-// Light of one view ray, put together from stretches of the cloud, nearest first. The includer declares lightField,
-// shadowVolume, PhaseTable, SingleScatterH, SingleScatterK, `params`, `push` and the constants FORWARD_CUT, GREY, SUN and PHOTONS.
-#ifndef LUMULUS_LIB_STRETCH
-#define LUMULUS_LIB_STRETCH
+// Light of one view ray, put together from segments that lie in one instance each, nearest first. The includer declares
+// lightField, shadowVolume, PhaseTable, singleScatterH, singleScatterK, `params`, `push` and the constants FORWARD_CUT, GREY,
+// SUN, PHOTONS and MANY.
+#ifndef LUMULUS_LIB_RAY_SEGMENT
+#define LUMULUS_LIB_RAY_SEGMENT
 
+#include "lib/instances.glsl"
 #include "lib/sun_source.glsl"
 
-/// Optical depth of the turned light beyond which a pixel is opaque.
+/// Optical depth of the truncated medium beyond which a pixel is opaque.
 const float OPAQUE = 8.0;
 
 struct RayLight {
     vec3 cloud;
     float depth;     // true optical depth so far
+    vec3 truncated;  // optical depth of the truncated media so far; only with MANY
     float distance;  // sum of weight · distance
     float weight;
     float front;
 };
 
-RayLight emptyRay() { return RayLight(vec3(0.0), 0.0, 0.0, 0.0, FAR_DEPTH); }
+RayLight emptyRay() { return RayLight(vec3(0.0), 0.0, vec3(0.0), 0.0, 0.0, FAR_DEPTH); }
 
 /// Of the colour that is seen deepest.
-float leastExtinctionScale() {
-    const vec3 extinctionScale = params.light.extinctionScale;
-    return max(min(extinctionScale.x, min(extinctionScale.y, extinctionScale.z)), 0.01);
+float leastExtinctionScale(InstanceParams instance) {
+    const vec3 scale = instance.extinctionScale;
+    return max(min(scale.x, min(scale.y, scale.z)), 0.01);
 }
 
 /// True optical depth at which nothing behind can be seen.
-float opaqueDepth() { return OPAQUE / leastExtinctionScale(); }
+float opaqueDepth(InstanceParams instance) { return OPAQUE / leastExtinctionScale(instance); }
+
+/// The same with several media: whether anything behind can be seen.
+bool isOpaque(RayLight ray) { return min(ray.truncated.x, min(ray.truncated.y, ray.truncated.z)) >= OPAQUE; }
 
 /// In-scattered radiance per σs' (smooth between collectors); noise below zero is cut off last.
-vec3 inScattered(vec3 voxel) {
-    const vec4 light = textureLod(lightField, voxel * params.field.radianceScale, 0.0);
+vec3 inScattered(InstanceParams instance, vec3 voxel) {
+    vec3 place = voxel * instance.radianceScale;
+    if (MANY)
+        place = (instance.lightOrigin + clamp(place * instance.lightSize, vec3(0.5), instance.lightSize - 0.5)) *
+                params.atlas.light;
+    const vec4 light = textureLod(lightField, place, 0.0);
     return light.a > 0.0 ? max(light.rgb / light.a, 0.0) : vec3(0.0);
 }
 
-float depthToSun(vec3 voxel) {
-    return textureLod(shadowVolume, params.field.voxelToShadow * voxel + params.field.shadowOffset, 0.0).r;
+/// Optical depth towards the sun, by the shadow volume of the instance.
+float depthToSun(InstanceParams instance, vec3 voxel) {
+    vec3 place = instance.voxelToShadow * voxel + instance.shadowOffset;
+    if (MANY)
+        place = (instance.shadowOrigin + clamp(place * instance.shadowSize, vec3(0.5), instance.shadowSize - 0.5)) *
+                params.atlas.shadow;
+    return textureLod(shadowVolume, place, 0.0).r;
 }
 
-/// Where in a stretch (0 its near end, 1 its far end) the light seen comes from, as the quantile u of what it sends: in
+/// Where in a segment (0 its near end, 1 its far end) the light seen comes from, as the quantile u of what it sends: in
 /// the middle of thin ones, at the skin of thick ones.
 float seenAt(float thickness, float u) {
     return thickness < 0.05 ? u : -log(1.0 - u * (1.0 - exp(-thickness))) / thickness;
 }
 
-/// Adds a stretch of optical thickness `thickness` between the distances near and far, lit as at `voxel`, the sun's
+/// Adds a segment of optical thickness `thickness` between the distances near and far, lit as at `voxel`, the sun's
 /// light through `tauSun`.
-void addSegment(inout RayLight ray, SunView sun, float near, float far, float thickness, vec3 voxel, float tauSun) {
+void addSegment(inout RayLight ray, InstanceParams instance, SunView sun, float near, float far, float thickness, vec3 voxel,
+                float tauSun) {
     if (PHOTONS) {
-        // multiply scattered light: (1 − f) σs L against the turned medium's own extinction κ σt
-        const vec3 turned = params.light.extinctionScale * thickness;
-        const vec3 filled = mix((1.0 - expScaled(-turned)) / max(params.light.extinctionScale, 1.0e-6), vec3(thickness),
-                                lessThan(turned, vec3(1.0e-3)));
-        ray.cloud += params.light.albedo * params.light.scatterShare * inScattered(voxel) * filled *
-                     expScaled(-params.light.extinctionScale * ray.depth);
+        // multiply scattered light: (1 − f) σs L against the truncated medium's own extinction κ σt
+        const vec3 scaled = instance.extinctionScale * thickness;
+        const vec3 filled = mix((1.0 - expScaled(-scaled)) / max(instance.extinctionScale, 1.0e-6), vec3(thickness),
+                                lessThan(scaled, vec3(1.0e-3)));
+        vec3 before = -instance.extinctionScale * ray.depth;
+        if (MANY) before = -ray.truncated;
+        ray.cloud += instance.albedo * instance.scatterShare * inScattered(instance, voxel) * filled * expScaled(before);
     }
-    if (SUN) ray.cloud += sunScattered(sun, params.light, tauSun, ray.depth, thickness);
+    if (SUN) ray.cloud += sunScattered(sun, instance, tauSun, ray.depth, thickness);
     const float weight = exp(-ray.depth) * (1.0 - exp(-thickness));
     ray.distance += weight * 0.5 * (near + far);
     ray.weight += weight;
     if (thickness > 0.0) ray.front = min(ray.front, near);
     ray.depth += thickness;
+    if (MANY) ray.truncated += instance.extinctionScale * thickness;
 }
 
 /// A pixel that no ray has reached; `depth` holds Σ weight · distance until it is finished.
@@ -74,13 +92,18 @@ PixelSum emptyPixel() {
 
 void addRay(inout PixelSum sum, RayLight ray, vec3 direction) {
     const float transmittance = exp(-ray.depth);
-    const vec3 turned = exp(-params.light.extinctionScale * ray.depth);
+    vec3 seen;  // of what is behind
+    if (MANY)
+        seen = exp(-ray.truncated);
+    else
+        seen = exp(-onlyInstance.extinctionScale * ray.depth);
     sum.pixel.cloud += ray.cloud;
-    sum.pixel.radiance += ray.cloud + params.light.skyRadiance * turned;
+    sum.pixel.radiance += ray.cloud + environmentRadiance(params.environment, direction) * seen;
     // what is drawn in the sun's disc is not spread over its neighbours
-    if (push.what != DRAW_SPARSE && push.what != DRAW_REFINED) sum.pixel.radiance += discSeen(params.light, direction) * transmittance;
+    if (push.what != DRAW_SPARSE && push.what != DRAW_REFINED)
+        sum.pixel.radiance += discSeen(params.light, direction) * transmittance;
     sum.pixel.transmittance += transmittance;
-    sum.pixel.alpha += 1.0 - (turned.x + turned.y + turned.z) / 3.0;
+    sum.pixel.alpha += 1.0 - (seen.x + seen.y + seen.z) / 3.0;
     sum.pixel.depth += ray.distance;
     sum.pixel.front = min(sum.pixel.front, ray.front);
     sum.weight += ray.weight;

@@ -1,6 +1,7 @@
-// The sun's light with one turn, per unit of σs and irradiance (single_scattering.h has the formula). The includer declares the
-// buffer PhaseTable, the tables singleScatterH and singleScatterK as pictures (optical depth across, angle down) and the constant
-// FORWARD_CUT: whether the forward peak is cut, and GREY: whether extinctionScale and tables are the same for all colours.
+// The sun's light that scattered once, per unit of σs and irradiance (single_scattering.h has the formula). The includer
+// declares the buffer PhaseTable, the tables singleScatterH and singleScatterK as pictures (optical depth across, angle down,
+// one medium below the other) and the constants FORWARD_CUT: whether the forward peak is cut, and GREY: whether
+// extinctionScale and tables are the same for all colours.
 #ifndef LUMULUS_LIB_SUN_SOURCE
 #define LUMULUS_LIB_SUN_SOURCE
 
@@ -8,24 +9,27 @@
 #include "shared/phase_table.h"
 #include "lib/disc.glsl"
 
-/// exp of a multiple of the extinctionScale; one exponential where the albedo is grey.
+/// exp of a multiple of extinctionScale; one exponential where the albedo is grey.
 vec3 expScaled(vec3 x) { return GREY ? vec3(exp(x.x)) : exp(x); }
 
 /// What of the sun's light depends on the view direction alone.
 struct SunView {
     float phase;      // p(θ)
-    TableCell angle;  // in the one-turn tables
+    TableCell angle;  // in the single-scattering tables
+    int firstRow;     // of the medium's tables
 };
 
-SunView sunView(LightParams light, vec3 viewDirection) {
-    const ScatterAngle angle = angleBetween(light.sunTravel, -viewDirection);
-    const float axis = angleToAxis(angle, light.angleScale);
+SunView sunView(InstanceParams instance, vec3 viewDirection) {
+    const ScatterAngle angle = angleBetween(params.light.sunTravel, -viewDirection);
+    const float axis = angleToAxis(angle, instance.angleScale);
     const TableCell cell = tableCell(axis, phaseTableSize);
-    return SunView(exp(mix(phaseTable[cell.base], phaseTable[cell.base + 1], cell.fraction)),
-                   tableCell(axis, singleScatterAngleCount));
+    const int first = MANY ? instance.phaseTable * phaseTableSize + cell.base : cell.base;
+    return SunView(exp(mix(phaseTable[first], phaseTable[first + 1], cell.fraction)),
+                   tableCell(axis, singleScatterAngleCount),
+                   MANY ? instance.phaseTable * (singleScatterAngleCount - 1) : 0);
 }
 
-/// Between the corners that a texel of a one-turn table holds.
+/// Between the corners that a texel of a single-scattering table holds.
 float betweenCorners(vec4 corners, vec2 place) {
     const vec2 atDepth = mix(corners.xz, corners.yw, place.x);
     return mix(atDepth.x, atDepth.y, place.y);
@@ -33,37 +37,38 @@ float betweenCorners(vec4 corners, vec2 place) {
 
 /// A look-up of `sun` at `depth`, a TableCell. An image cannot be handed to a function.
 #define IN_CELL(table, depth, texel) \
-    betweenCorners(imageLoad(table, ivec2(texel, sun.angle.base)), vec2(depth.fraction, sun.angle.fraction))
+    betweenCorners(imageLoad(table, ivec2(texel, sun.firstRow + sun.angle.base)), vec2(depth.fraction, sun.angle.fraction))
 #define SINGLE_SCATTER_AT(table, depth)                                                                      \
     (GREY ? vec3(IN_CELL(table, depth, depth.base))                                                    \
           : vec3(IN_CELL(table, depth, 3 * depth.base), IN_CELL(table, depth, 3 * depth.base + 1),     \
                  IN_CELL(table, depth, 3 * depth.base + 2)))
 
 /// H(τs,θ) and K(τ,θ) without their extinctionScale e^−κτ.
-vec3 singleScatterBefore(SunView sun, LightParams light, float tau) {
-    const TableCell depth = tableCell(tauToAxis(tau, light.tauMaximum), singleScatterTauCount);
+vec3 singleScatterBefore(SunView sun, InstanceParams instance, float tau) {
+    const TableCell depth = tableCell(tauToAxis(tau, instance.tauMaximum), singleScatterTauCount);
     return SINGLE_SCATTER_AT(singleScatterH, depth);
 }
 
-vec3 singleScatterAfter(SunView sun, LightParams light, float tau) {
-    const TableCell depth = tableCell(tauToAxis(tau, light.tauMaximum), singleScatterTauCount);
+vec3 singleScatterAfter(SunView sun, InstanceParams instance, float tau) {
+    const TableCell depth = tableCell(tauToAxis(tau, instance.tauMaximum), singleScatterTauCount);
     return SINGLE_SCATTER_AT(singleScatterK, depth);
 }
 
-/// Radiance that a stretch of optical thickness `thickness`, seen through `tauView` and lit through `tauSun`, sends to
-/// the eye: the integral of the source over the stretch with its attenuation.
-vec3 sunScattered(SunView sun, LightParams light, float tauSun, float tauView, float thickness) {
-    // 1 − e^−x without cancellation for thin stretches
+/// Radiance that a segment of optical thickness `thickness`, seen through `tauView` and lit through `tauSun`, sends to
+/// the eye: the integral of the source over the segment with its attenuation.
+vec3 sunScattered(SunView sun, InstanceParams instance, float tauSun, float tauView, float thickness) {
+    // 1 − e^−x without cancellation for thin segments
     const float filled = thickness < 1.0e-3 ? thickness * (1.0 - 0.5 * thickness) : 1.0 - exp(-thickness);
     vec3 source = vec3(sun.phase * exp(-tauSun - tauView) * filled);
     if (FORWARD_CUT) {
-        source += singleScatterBefore(sun, light, tauSun) * expScaled(-light.extinctionScale * tauSun) * (exp(-tauView) * filled);
-        const vec3 scaled = light.extinctionScale * thickness;
-        const vec3 held = mix((1.0 - expScaled(-scaled)) / max(light.extinctionScale, 1.0e-6), vec3(thickness), lessThan(scaled, vec3(1.0e-3)));
-        source += singleScatterAfter(sun, light, tauSun + tauView + 0.5 * min(thickness, 1.0)) *
-                  expScaled(-light.extinctionScale * (tauSun + tauView)) * held;
+        const vec3 scale = instance.extinctionScale;
+        source += singleScatterBefore(sun, instance, tauSun) * expScaled(-scale * tauSun) * (exp(-tauView) * filled);
+        const vec3 scaled = scale * thickness;
+        const vec3 held = mix((1.0 - expScaled(-scaled)) / max(scale, 1.0e-6), vec3(thickness), lessThan(scaled, vec3(1.0e-3)));
+        source += singleScatterAfter(sun, instance, tauSun + tauView + 0.5 * min(thickness, 1.0)) *
+                  expScaled(-scale * (tauSun + tauView)) * held;
     }
-    return light.albedo * light.sunIrradiance * source;
+    return instance.albedo * instance.sunIrradiance * source;
 }
 
 #endif

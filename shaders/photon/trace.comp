@@ -10,7 +10,7 @@
 #include "lib/density.glsl"
 #include "lib/emission.glsl"
 #include "lib/store.glsl"
-#include "lib/tracking.glsl"
+#include "lib/traversal.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool ANALYTIC_PHASE = true;

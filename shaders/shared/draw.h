@@ -2,6 +2,8 @@
 #ifndef LUMULUS_SHARED_DRAW_H
 #define LUMULUS_SHARED_DRAW_H
 
+#include "shared/environment.h"
+#include "shared/instance.h"
 #include "shared/prelude.h"
 
 SHARED_BEGIN
@@ -24,31 +26,11 @@ struct ViewParams {
     int projection;
 };
 
+/// The sun as the eye sees it.
 struct LightParams {
     vec3 sunTravel;  // unit vector along which sunlight travels
-    vec3 sunIrradiance;
-    vec3 sunDisc;   // radiance of the visible disc
-    float sunCone;  // 1 − cos of its angular radius
-    vec3 skyRadiance;
-    vec3 albedo;
-    vec3 extinctionScale;  // κ = 1 − ω f: optical depth of the turned light per true optical depth
-    float scatterShare;    // 1 − f
-    float angleScale;      // axes of the phase tables
-    float tauMaximum;
-};
-
-/// Where the cloud and the light in it lie; `voxel` are voxel coordinates.
-struct FieldParams {
-    mat3 worldToVoxel;   // of directions: voxels per metre
-    vec3 eyeVoxel;       // the camera's position
-    vec3 size;           // of the density volume, voxels
-    ivec3 cells;         // of the majorant grid
-    vec3 cellSize;       // voxels
-    float extinction;    // σt at density 1 [1/m]
-    float voxelLength;   // metres: the finest step of a march
-    vec3 radianceScale;  // voxel → texture coordinates of the in-scattered radiance
-    mat3 voxelToShadow;  // voxel → texture coordinates of the optical depth to the sun
-    vec3 shadowOffset;
+    vec3 sunDisc;    // radiance of the visible disc
+    float sunCone;   // 1 − cos of its angular radius
 };
 
 /// Points at every `spacing`th pixel of every `spacing`th row of the whole picture; those that a tile needs.
@@ -63,8 +45,10 @@ struct SamplingGrid {
 struct DrawParams {
     ViewParams view;
     LightParams light;
-    FieldParams field;
+    EnvironmentParams environment;
+    AtlasParams atlas;
     SamplingGrid sampling;
+    int instances;
     int tilesAcross;
     int samples;  // rays a pixel, along each side: a grid of them where pixels are larger than voxels
 };
@@ -97,11 +81,12 @@ struct InterpolatePush {
 /// Texels in a row of a list that is an image.
 const int LIST_WIDTH = 4096;
 
-/// A sphere that stands for a leaf. Two texels of an image: centre and radius; share.
+/// A sphere that stands for a leaf. Two texels of an image: centre and radius; share and instance.
 struct Billboard {
     vec3 centre;
     float radius;
-    float share;  // of the cloud's density
+    float share;     // of the cloud's density
+    float instance;  // its number
 };
 /// Volume of billboards against what their leaves fill: neighbours overlap, and no holes show.
 const float BILLBOARD_OVERLAP = 2.75F;
@@ -163,10 +148,9 @@ struct LightCountsPush {
 #ifdef __cplusplus
 // Scalar layout, as SPIR-V has it; tests/unit/shared_layout_test.cpp compares every member.
 static_assert(sizeof(ViewParams) == 56 && offsetof(ViewParams, projection) == 52);
-static_assert(sizeof(LightParams) == 88 && offsetof(LightParams, tauMaximum) == 84);
-static_assert(sizeof(FieldParams) == 152 && offsetof(FieldParams, shadowOffset) == 140);
+static_assert(sizeof(LightParams) == 28 && offsetof(LightParams, sunCone) == 24);
 static_assert(sizeof(SamplingGrid) == 28 && offsetof(SamplingGrid, depthTolerance) == 24);
-static_assert(sizeof(DrawParams) == 332 && offsetof(DrawParams, samples) == 328);
+static_assert(sizeof(DrawParams) == 172 && offsetof(DrawParams, samples) == 168);
 static_assert(sizeof(DrawPush) == 20 && offsetof(DrawPush, count) == 12);
 static_assert(sizeof(InterpolatePush) == 32 && offsetof(InterpolatePush, blocks) == 24);
 static_assert(sizeof(Pixel) == 16 * PIXEL_TEXELS && offsetof(Pixel, unused) == 40);

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "cloud/cloud.h"
+#include "cloud/asset.h"
 
 namespace lumulus::cloud {
 

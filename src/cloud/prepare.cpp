@@ -3,7 +3,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 
 #include "base/interrupt.h"
-#include "cloud/cloud.h"
+#include "cloud/asset.h"
 #include "gpu/commands.h"
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
@@ -63,12 +63,12 @@ gpu::Image uploadDensity(gpu::Context& context, const vdb::QuantisedVolume& quan
     return image;
 }
 
-glm::mat3 gradientToMetres(const vdb::Affine& toWorld) {
-    return glm::mat3(glm::inverseTranspose(toWorld.linear));
+glm::mat3 gradientToMetres(const glm::dmat3& voxelToMetres) {
+    return glm::mat3(glm::inverseTranspose(voxelToMetres));
 }
 
-glm::dvec3 voxelEdges(const vdb::Affine& toWorld) {
-    return {glm::length(toWorld.linear[0]), glm::length(toWorld.linear[1]), glm::length(toWorld.linear[2])};
+glm::dvec3 voxelEdges(const glm::dmat3& voxelToMetres) {
+    return {glm::length(voxelToMetres[0]), glm::length(voxelToMetres[1]), glm::length(voxelToMetres[2])};
 }
 
 /// What the block passes find: majorants of the density and bounds of its gradient.
@@ -210,12 +210,12 @@ gpu::Image majorantImage(gpu::Context& context, const MajorantGrid& grid) {
     return image;
 }
 
-KdTree makeTree(const std::vector<Sample>& samples, const vdb::Volume& volume, const Blocks& blocks,
+KdTree makeTree(const std::vector<Sample>& samples, const vdb::Volume& volume, const glm::dmat3& voxelToMetres, const Blocks& blocks,
                 const PrepareOptions& options, double voxelVolume) {
     const BlockDensity blockDensity(volume.density, volume.size, volume.maximum);
     KdTreeOptions tree;
     tree.densityThreshold = options.preparation.densityThreshold;
-    tree.voxelEdge = voxelEdges(volume.toWorld);
+    tree.voxelEdge = voxelEdges(voxelToMetres);
     tree.influenceRadius =
         options.preparation.influenceRadius.value_or(automaticInfluence(blocks, samples.size(), voxelVolume)) /
         tree.voxelEdge;
@@ -227,19 +227,21 @@ KdTree makeTree(const std::vector<Sample>& samples, const vdb::Volume& volume, c
 
 }  // namespace
 
-Cloud prepare(gpu::Context& context, const vdb::Volume& volume, const PrepareOptions& options) {
+Asset prepare(gpu::Context& context, const vdb::PlacedVolume& placed, const PrepareOptions& options) {
     Stopwatch watch;
     PreparationTimes times;
-    const double voxelVolume = std::abs(glm::determinant(volume.toWorld.linear));
+    const vdb::Volume& volume = *placed.volume;
+    const glm::dmat3& voxelToMetres = placed.toWorld.linear;
+    const double voxelVolume = std::abs(glm::determinant(voxelToMetres));
     const vdb::QuantisedVolume quantised = vdb::quantise(volume);
     gpu::Image density = uploadDensity(context, quantised, volume.size);
     times.upload = watch.lap();
-    const glm::mat3 toMetres = gradientToMetres(volume.toWorld);
+    const glm::mat3 toMetres = gradientToMetres(voxelToMetres);
     const Blocks blocks = boundBlocks(context, density, volume.size, toMetres);
     times.gradient = watch.lap();
     std::vector<Sample> samples = sampleGradient(context, density, volume.size, blocks, toMetres, options);
     times.sampling = watch.lap();
-    KdTree tree = makeTree(samples, volume, blocks, options, voxelVolume);
+    KdTree tree = makeTree(samples, volume, voxelToMetres, blocks, options, voxelVolume);
     times.tree = watch.lap();
 
     gpu::Buffer leafBuffer(context, "leaves", tree.leaves.size() * sizeof(shared::LeafBox), Memory::device);
@@ -258,8 +260,8 @@ Cloud prepare(gpu::Context& context, const vdb::Volume& volume, const PrepareOpt
                        (options.majorant == scene::Majorant::automatic && single.nullCollisions >= globalMajorantLimit);
     const MajorantGrid& grid = local ? cells : single;
     times.leaves = watch.lap();
-    return Cloud{volume.size,
-                 volume.toWorld,
+    return Asset{volume.size,
+                 voxelToMetres,
                  voxelVolume,
                  quantised.format,
                  std::move(density),

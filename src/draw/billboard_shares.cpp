@@ -27,12 +27,12 @@ double filledVoxels(const cloud::Collector& collector) {
 
 }  // namespace
 
-double billboardRadius(const cloud::Cloud& cloud, const cloud::Collector& collector) {
+double billboardRadius(const cloud::Asset& cloud, const cloud::Collector& collector) {
     const double volume = static_cast<double>(shared::BILLBOARD_OVERLAP) * filledVoxels(collector) * cloud.voxelVolume;
     return std::cbrt(volume * 3.0 / (4.0 * std::numbers::pi));
 }
 
-std::vector<float> billboardShares(gpu::Context& context, const cloud::Cloud& cloud) {
+std::vector<float> billboardShares(gpu::Context& context, const cloud::Asset& cloud) {
     const std::size_t count = cloud.collectors.size();
     std::vector<glm::vec4> spheres;
     spheres.reserve(count);
@@ -45,7 +45,7 @@ std::vector<float> billboardShares(gpu::Context& context, const cloud::Cloud& cl
     commands.begin();
     commands.pass("billboard means");
     commands.dispatch(program, {{"density", cloud.density, gpu::Sampler::linear}, {"Spheres", input}, {"Means", means}},
-                      shared::BillboardMeanPush{glm::mat3(glm::inverse(cloud.toWorld.linear)),
+                      shared::BillboardMeanPush{glm::mat3(glm::inverse(cloud.voxelToMetres)),
                                                 1.0F / glm::vec3(cloud.size), static_cast<std::uint32_t>(count)},
                       gpu::linearGroups(static_cast<std::uint32_t>(count), 64));
     commands.submit();

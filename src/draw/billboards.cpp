@@ -1,6 +1,7 @@
 #include "draw/billboards.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "draw/billboard_shares.h"
 
@@ -12,13 +13,13 @@ namespace spirv {
 #include "spirv/draw/billboards.comp.h"
 }  // namespace spirv
 
-/// Two texels each: the sphere; its share.
+/// Two texels each: the sphere; its share and its instance.
 std::vector<glm::vec4> billboardTexels(const std::vector<shared::Billboard>& billboards) {
     std::vector<glm::vec4> texels;
     texels.reserve(2 * billboards.size());
     for (const shared::Billboard& b : billboards) {
         texels.emplace_back(b.centre, b.radius);
-        texels.emplace_back(b.share, 0.0F, 0.0F, 0.0F);
+        texels.emplace_back(b.share, b.instance, 0.0F, 0.0F);
     }
     return texels;
 }
@@ -35,25 +36,29 @@ gpu::Image listImage(gpu::Context& context, const char* name, std::vector<Texel>
 
 }  // namespace
 
-std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, std::span<const float> shares,
-                                              const Camera& camera) {
+std::vector<shared::Billboard> makeBillboards(std::span<const cloud::Instance* const> instances,
+                                              std::span<const std::vector<float>> shares, const Camera& camera) {
     struct Placed {
         double order;
-        std::size_t collector;
+        std::size_t instance, collector;
         shared::Billboard billboard;
     };
     std::vector<Placed> placed;
-    placed.reserve(cloud.collectors.size());
     const bool parallel = camera.projection == scene::Projection::orthographic;
-    for (std::size_t i = 0; i < cloud.collectors.size(); ++i) {
-        const cloud::Collector& collector = cloud.collectors[i];
-        const glm::dvec3 centre = cloud.toWorld.point(glm::dvec3(collector.centre)) - camera.position;
-        const auto radius = static_cast<float>(billboardRadius(cloud, collector));
-        const double order = parallel ? glm::dot(centre, camera.axes[2]) : glm::dot(centre, centre);
-        placed.push_back({order, i, {glm::vec3(centre), radius, shares[i]}});
+    for (std::size_t number = 0; number < instances.size(); ++number) {
+        const cloud::Instance& instance = *instances[number];
+        const cloud::Asset& asset = *instance.asset;
+        for (std::size_t i = 0; i < asset.collectors.size(); ++i) {
+            const cloud::Collector& collector = asset.collectors[i];
+            const glm::dvec3 centre = instance.toWorld(glm::dvec3(collector.centre)) - camera.position;
+            const auto radius = static_cast<float>(billboardRadius(asset, collector));
+            const double order = parallel ? glm::dot(centre, camera.axes[2]) : glm::dot(centre, centre);
+            placed.push_back(
+                {order, number, i, {glm::vec3(centre), radius, shares[number][i], static_cast<float>(number)}});
+        }
     }
     std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
-        return a.order < b.order || (a.order == b.order && a.collector < b.collector);
+        return std::tie(a.order, a.instance, a.collector) < std::tie(b.order, b.instance, b.collector);
     });
     std::vector<shared::Billboard> billboards;
     billboards.reserve(placed.size());
@@ -61,30 +66,31 @@ std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, std::sp
     return billboards;
 }
 
-Billboards::Billboards(gpu::Context& context, const cloud::Cloud& cloud, const DrawFeatures& features)
-    : context_(context),
-      cloud_(cloud),
-      program_(context, "billboards", spirv::billboards_comp, features.constants()),
-      shares_(billboardShares(context, cloud)),
-      offsets_(context, "tile offsets", 0, gpu::Memory::device) {
-    for (const cloud::Collector& collector : cloud.collectors)
-        reach_ = std::max(reach_, billboardRadius(cloud, collector));
+Billboards::Billboards(gpu::Context& context, std::span<const cloud::Instance* const> instances, const DrawFeatures& features)
+    : instances_(instances.begin(), instances.end()), program_(context, "billboards", spirv::billboards_comp, features.constants()) {
+    for (const cloud::Instance* instance : instances_) {
+        shares_.push_back(billboardShares(context, *instance->asset));
+        reach_.push_back(0.0);
+        for (const cloud::Collector& collector : instance->asset->collectors)
+            reach_.back() = std::max(reach_.back(), billboardRadius(*instance->asset, collector));
+    }
 }
 
-void Billboards::prepare(const Camera& camera) {
-    const std::vector<shared::Billboard> billboards = makeBillboards(cloud_, shares_, camera);
-    tiles_ = makeTileLists(camera, billboards);
-    billboards_.emplace(listImage(context_, "billboards", billboardTexels(billboards), VK_FORMAT_R32G32B32A32_SFLOAT));
-    offsets_ = gpu::filledBuffer(context_, "tile offsets", tiles_.offsets);
-    lists_.emplace(listImage(context_, "tile lists", tiles_.lists, VK_FORMAT_R32_UINT));
-}
+Billboards::View::View(gpu::Context& context, const Billboards& billboards, const Camera& camera)
+    : View(context, makeBillboards(billboards.instances_, billboards.shares_, camera), camera) {}
 
-void Billboards::record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawPush& push) const {
+Billboards::View::View(gpu::Context& context, const std::vector<shared::Billboard>& billboards, const Camera& camera)
+    : tiles_(makeTileLists(camera, billboards)),
+      billboards_(listImage(context, "billboards", billboardTexels(billboards), VK_FORMAT_R32G32B32A32_SFLOAT)),
+      lists_(listImage(context, "tile lists", tiles_.lists, VK_FORMAT_R32_UINT)),
+      offsets_(gpu::filledBuffer(context, "tile offsets", tiles_.offsets)) {}
+
+void Billboards::record(gpu::Commands& commands, const DrawInputs& inputs, const View& view,
+                        const shared::DrawPush& push) const {
     std::vector<gpu::Binding> bindings = inputs.bindings();
-    bindings.emplace_back("billboards", *billboards_);
-    bindings.emplace_back("TileOffsets", offsets_);
-    bindings.emplace_back("tileLists", *lists_);
-    bindings.emplace_back("density", cloud_.density, gpu::Sampler::linear);
+    bindings.emplace_back("billboards", view.billboards_);
+    bindings.emplace_back("TileOffsets", view.offsets_);
+    bindings.emplace_back("tileLists", view.lists_);
     commands.pass("billboards");
     dispatchDrawing(commands, program_, bindings, inputs.squares, push);
 }

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "cloud/cloud.h"
+#include "cloud/instance.h"
 #include "draw/drawing.h"
 #include "draw/tiles.h"
 #include "gpu/commands.h"
@@ -13,34 +12,46 @@
 
 namespace lumulus::draw {
 
-/// One billboard a collector, relative to the eye, nearest first (ties by index). `shares`: see billboardShares().
-std::vector<shared::Billboard> makeBillboards(const cloud::Cloud& cloud, std::span<const float> shares,
-                                              const Camera& camera);
+/// One billboard a collector of each instance (all have assets), relative to the eye, nearest first (ties by instance and index).
+/// `shares`: of each instance's collectors, see billboardShares().
+std::vector<shared::Billboard> makeBillboards(std::span<const cloud::Instance* const> instances,
+                                              std::span<const std::vector<float>> shares, const Camera& camera);
 
-/// Draws a cloud as billboards into bands of pixels.
+/// Draws clouds as billboards into bands of pixels.
 class Billboards {
   public:
-    Billboards(gpu::Context& context, const cloud::Cloud& cloud, const DrawFeatures& features);
+    /// `instances` have assets and outlive it.
+    Billboards(gpu::Context& context, std::span<const cloud::Instance* const> instances, const DrawFeatures& features);
 
-    /// Sorts and bins for this view, and uploads. Before any commands of the frame are recorded.
-    void prepare(const Camera& camera);
-
+    class View;
     /// Records one pass over some pixels; the fastest where they begin at multiples of TILE_EDGE.
-    void record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawPush& push) const;
+    void record(gpu::Commands& commands, const DrawInputs& inputs, const View& view, const shared::DrawPush& push) const;
 
-    /// Radius of the largest [m].
-    double reach() const { return reach_; }
-    int tilesAcross() const { return tiles_.across; }
+    /// Radius of the largest of an instance [m].
+    double reach(std::size_t instance) const { return reach_[instance]; }
+
+    /// The billboards as one camera sees them, sorted and binned in tiles.
+    class View {
+      public:
+        /// Uploads; before any commands of the frame are recorded.
+        View(gpu::Context& context, const Billboards& billboards, const Camera& camera);
+
+        int tilesAcross() const { return tiles_.across; }
+
+      private:
+        friend class Billboards;
+        View(gpu::Context& context, const std::vector<shared::Billboard>& billboards, const Camera& camera);
+
+        TileLists tiles_;
+        gpu::Image billboards_, lists_;
+        gpu::Buffer offsets_;
+    };
 
   private:
-    gpu::Context& context_;
-    const cloud::Cloud& cloud_;
+    std::vector<const cloud::Instance*> instances_;
     DrawProgram program_;
-    std::vector<float> shares_;  ///< of the collectors
-    double reach_ = 0.0;
-    TileLists tiles_;
-    std::optional<gpu::Image> billboards_, lists_;  ///< of the view that is prepared
-    gpu::Buffer offsets_;
+    std::vector<std::vector<float>> shares_;  ///< of the collectors of each instance
+    std::vector<double> reach_;
 };
 
 }  // namespace lumulus::draw

@@ -1,37 +1,61 @@
 #include "draw/drawing.h"
 
+#include <algorithm>
+
 #include "shared/phase_table.h"
 
 namespace lumulus::draw {
 
 namespace {
 
-/// A one-turn table as a picture whose texels are the four corners of a cell (this depth and the next, at this angle
-/// and the next), so that one load serves a bilinear look-up: optical depth across, angle down; where colours differ,
-/// three texels a cell.
-gpu::Image tablePicture(gpu::Context& context, const char* name, const std::vector<float>& table, bool grey) {
+/// The single-scattering tables of all media as one picture, one below the other. Its texels are the four corners of a
+/// cell (this depth and the next, at this angle and the next), so that one load serves a bilinear look-up: optical depth
+/// across, angle down; where colours differ, three texels a cell. Media without a table have zeros.
+gpu::Image tablePicture(gpu::Context& context, const char* name, std::span<const std::vector<float>* const> tables,
+                        bool grey) {
     const int channels = grey ? 1 : 3;
+    const bool none = std::ranges::all_of(tables, [](const auto* table) { return table->empty(); });
     const glm::ivec2 cells =
-        table.empty() ? glm::ivec2(1) : glm::ivec2(shared::singleScatterTauCount, shared::singleScatterAngleCount) - 1;
-    std::vector<glm::vec4> texels(static_cast<std::size_t>(cells.x * cells.y * channels), glm::vec4(0.0F));
-    const auto entry = [&](int angle, int tau, int channel) {
-        return table[static_cast<std::size_t>(shared::singleScatterIndex(angle, tau) + channel)];
-    };
-    for (int i = 0; !table.empty() && i < cells.x * cells.y * channels; ++i) {
-        const int channel = i % channels, tau = i / channels % cells.x, angle = i / channels / cells.x;
-        texels[static_cast<std::size_t>(i)] = {entry(angle, tau, channel), entry(angle, tau + 1, channel),
-                                               entry(angle + 1, tau, channel), entry(angle + 1, tau + 1, channel)};
+        none ? glm::ivec2(1) : glm::ivec2(shared::singleScatterTauCount, shared::singleScatterAngleCount) - 1;
+    const auto each = static_cast<std::size_t>(cells.x * cells.y * channels);
+    std::vector<glm::vec4> texels(each * tables.size(), glm::vec4(0.0F));
+    for (std::size_t medium = 0; medium < tables.size(); ++medium) {
+        const std::vector<float>& table = *tables[medium];
+        const auto entry = [&](int angle, int tau, int channel) {
+            return table[static_cast<std::size_t>(shared::singleScatterIndex(angle, tau) + channel)];
+        };
+        for (std::size_t k = 0; !table.empty() && k < each; ++k) {
+            const int i = static_cast<int>(k), channel = i % channels, tau = i / channels % cells.x,
+                      angle = i / channels / cells.x;
+            texels[medium * each + k] = {entry(angle, tau, channel), entry(angle, tau + 1, channel),
+                                         entry(angle + 1, tau, channel), entry(angle + 1, tau + 1, channel)};
+        }
     }
-    gpu::Image image(context, name, {cells.x * channels, cells.y}, VK_FORMAT_R32G32B32A32_SFLOAT);
+    gpu::Image image(context, name, {cells.x * channels, cells.y * static_cast<int>(tables.size())},
+                     VK_FORMAT_R32G32B32A32_SFLOAT);
     gpu::upload(context, image, texels);
     return image;
 }
 
+template <class Member>
+std::vector<const std::vector<float>*> each(std::span<const phase::ScatteringTables* const> media, Member member) {
+    std::vector<const std::vector<float>*> tables;
+    for (const phase::ScatteringTables* medium : media) tables.push_back(&(medium->*member));
+    return tables;
+}
+
+std::vector<float> joined(const std::vector<const std::vector<float>*>& tables) {
+    std::vector<float> all;
+    for (const std::vector<float>* table : tables) all.insert(all.end(), table->begin(), table->end());
+    return all;
+}
+
 }  // namespace
 
-PhaseTables::PhaseTables(gpu::Context& context, const phase::ScatteringTables& tables, bool grey)
-    : phase(gpu::filledBuffer(context, "phase table", tables.phaseTable)),
-      before(tablePicture(context, "single scattering H", tables.singleScatterH, grey)),
-      after(tablePicture(context, "single scattering K", tables.singleScatterK, grey)) {}
+PhaseTables::PhaseTables(gpu::Context& context, std::span<const phase::ScatteringTables* const> media, bool grey)
+    : phase(gpu::filledBuffer(context, "phase table", joined(each(media, &phase::ScatteringTables::phaseTable)))),
+      before(tablePicture(context, "single scattering H", each(media, &phase::ScatteringTables::singleScatterH), grey)),
+      after(tablePicture(context, "single scattering K", each(media, &phase::ScatteringTables::singleScatterK), grey)) {
+}
 
 }  // namespace lumulus::draw

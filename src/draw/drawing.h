@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "gpu/commands.h"
@@ -14,38 +15,50 @@ struct DrawFeatures {
     bool forwardCut = false;  ///< the forward peak is cut
     bool sun = false;
     bool photons = false;
-    bool grey = false;  ///< the albedo is the same for all colours
+    bool grey = false;  ///< the albedo of each cloud is the same for all colours
+    bool many = false;  ///< more than one instance
 
     std::vector<gpu::SpecConstant> constants() const {
         return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun), gpu::SpecConstant::of(2, photons),
-                gpu::SpecConstant::of(3, grey)};
+                gpu::SpecConstant::of(3, grey), gpu::SpecConstant::of(4, many)};
     }
 };
 
-/// Phase function of the drawing passes on the GPU.
+/// Phase functions of the drawing passes on the GPU: the tables of all media, one after the other (InstanceParams has
+/// their numbers).
 struct PhaseTables {
-    PhaseTables(gpu::Context& context, const phase::ScatteringTables& tables, bool grey);
+    PhaseTables(gpu::Context& context, std::span<const phase::ScatteringTables* const> media, bool grey);
     gpu::Buffer phase;
-    gpu::Image before, after;  ///< one-turn tables H and K; a single texel where the peak is not cut
+    gpu::Image before, after;  ///< single-scattering tables H and K; a single texel where no peak is cut
 };
 
-/// What every drawing pass reads and writes. `params` holds one shared::DrawParams, `squares` the list of DRAW_SQUARES
-/// or DRAW_REFINED.
-struct FrameInputs {
-    const gpu::Buffer& params;
-    const PhaseTables& phase;
+/// The volumes that rays go through: those of the one instance, or atlases of all.
+struct Volumes {
+    const gpu::Image& density;
+    const gpu::Image& majorants;
     const gpu::Image& lightField;
     const gpu::Image& shadowVolume;
+};
+
+/// What every drawing pass reads and writes. `params` holds one shared::DrawParams, `instances` a
+/// shared::InstanceParams each, `squares` the list of DRAW_SQUARES or DRAW_REFINED.
+struct DrawInputs {
+    const gpu::Buffer& params;
+    const gpu::Buffer& instances;
+    const PhaseTables& phase;
+    const Volumes& volumes;
     const gpu::Buffer& pixels;
     const gpu::Buffer& squares;
 
     std::vector<gpu::Binding> bindings() const {
         return {{"Params", params},
+                {"Instances", instances},
                 {"PhaseTable", phase.phase},
                 {"singleScatterH", phase.before},
                 {"singleScatterK", phase.after},
-                {"lightField", lightField, gpu::Sampler::linearClamp},
-                {"shadowVolume", shadowVolume, gpu::Sampler::linearClamp},
+                {"density", volumes.density, gpu::Sampler::linear},
+                {"lightField", volumes.lightField, gpu::Sampler::linearClamp},
+                {"shadowVolume", volumes.shadowVolume, gpu::Sampler::linearClamp},
                 {"Pixels", pixels},
                 {"Blocks", squares}};
     }

@@ -1,19 +1,17 @@
 #pragma once
 
-#include "cloud/cloud.h"
 #include "draw/drawing.h"
 
 namespace lumulus::draw {
 
-/// Draws a cloud by marching through its density.
+/// Draws clouds by marching through their density.
 class March {
   public:
-    March(gpu::Context& context, const cloud::Cloud& cloud, const DrawFeatures& features);
+    March(gpu::Context& context, const DrawFeatures& features);
     /// Records one pass over some pixels.
-    void record(gpu::Commands& commands, const FrameInputs& inputs, const shared::DrawPush& push) const;
+    void record(gpu::Commands& commands, const DrawInputs& inputs, const shared::DrawPush& push) const;
 
   private:
-    const cloud::Cloud& cloud_;
     DrawProgram program_;
 };
 

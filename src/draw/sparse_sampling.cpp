@@ -124,7 +124,7 @@ shared::DrawPush Interpolation::squares(const Tile& pixels) const {
     return {shared::DRAW_SQUARES, {pixels.x, pixels.y}, {pixels.width, pixels.height}};
 }
 
-void Interpolation::record(gpu::Commands& commands, const FrameInputs& inputs, const Tile& pixels) const {
+void Interpolation::record(gpu::Commands& commands, const DrawInputs& inputs, const Tile& pixels) const {
     const shared::InterpolatePush values = push(pixels);
     commands.pass("interpolate");
     commands.dispatch(
@@ -139,7 +139,7 @@ void Interpolation::record(gpu::Commands& commands, const FrameInputs& inputs, c
                           64));
 }
 
-void Interpolation::recordRefined(gpu::Commands& commands, const FrameInputs& inputs, const Tile& pixels) const {
+void Interpolation::recordRefined(gpu::Commands& commands, const DrawInputs& inputs, const Tile& pixels) const {
     commands.pass("interpolate refined");
     commands.dispatchIndirect(*refinedProgram_,
                               {{"Params", inputs.params},

@@ -45,9 +45,9 @@ class Interpolation {
     /// Empty lists; before commands are recorded.
     void clearLists();
     /// Records the pass over a rectangle of pixels.
-    void record(gpu::Commands& commands, const FrameInputs& inputs, const Tile& pixels) const;
+    void record(gpu::Commands& commands, const DrawInputs& inputs, const Tile& pixels) const;
     /// Records the pass over what the first one listed.
-    void recordRefined(gpu::Commands& commands, const FrameInputs& inputs, const Tile& pixels) const;
+    void recordRefined(gpu::Commands& commands, const DrawInputs& inputs, const Tile& pixels) const;
 
     /// What draws the half-way points of blocks(), and the squares that are listed last.
     shared::DrawPush refinedPoints(const Tile& pixels) const;

@@ -31,7 +31,7 @@ int largestOf(const glm::ivec3& v) {
 }
 
 /// Voxels with density.
-double occupiedVoxels(const cloud::Cloud& cloud) {
+double occupiedVoxels(const cloud::Asset& cloud) {
     double voxels = 0.0;
     for (const cloud::Collector& collector : cloud.collectors) voxels += collector.occupiedVoxels();
     return voxels;
@@ -39,7 +39,7 @@ double occupiedVoxels(const cloud::Cloud& cloud) {
 
 }  // namespace
 
-cloud::CellGrid lightGrid(const cloud::Cloud& cloud, std::uint64_t photons) {
+cloud::CellGrid lightGrid(const cloud::Asset& cloud, std::uint64_t photons) {
     const int longest = largestOf(cloud.size);
     const double wanted = std::min(std::cbrt(photonsInCell * occupiedVoxels(cloud) / static_cast<double>(photons)),
                                    longest / fewestAlong);
@@ -53,9 +53,9 @@ cloud::CellGrid lightGrid(const cloud::Cloud& cloud, std::uint64_t photons) {
     return grid;
 }
 
-LightField::LightField(gpu::Context& context, const cloud::Cloud& cloud, const cloud::CellGrid& grid,
+LightCells::LightCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
                        const cloud::CellGrid& estimates)
-    : cloud_(cloud),
+    : asset_(&asset),
       grid_(grid),
       estimatorGrid_(estimates),
       massProgram_(context, "light_mass", spirv::light_mass_comp),
@@ -65,28 +65,31 @@ LightField::LightField(gpu::Context& context, const cloud::Cloud& cloud, const c
       mass_(context, "light cell mass", grid_.cells, VK_FORMAT_R32_SFLOAT),
       counts_(context, "light counts", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
       ownShare_(context, "own share", grid_.cells, VK_FORMAT_R32_SFLOAT),
-      cells_(context, "light cells", grid_.cells + 2, VK_FORMAT_R32G32B32A32_SFLOAT),
-      image_(context, "light field", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
       lit_(findLitCells(context)),
-      litCells_(gpu::filledBuffer(context, "lit cells", lit_.numbers)) {
+      litCells_(gpu::filledBuffer(context, "lit cells", lit_.numbers)) {}
+
+LightField::LightField(gpu::Context& context, const cloud::CellGrid& grid)
+    : grid_(grid),
+      cells_(context, "light cells", grid_.cells + 2, VK_FORMAT_R32G32B32A32_SFLOAT),
+      image_(context, "light field", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT) {
     // what is not in the list stays dark
     for (gpu::Image* image : {&cells_, &image_}) gpu::upload(context, *image, std::vector<std::byte>(image->bytes()));
 }
 
 /// Fills the mass.
-LitCells LightField::findLitCells(gpu::Context& context) const {
+LitCells LightCells::findLitCells(gpu::Context& context) const {
     gpu::Commands commands(context);
     commands.begin();
-    commands.dispatch(massProgram_, {{"density", cloud_.density, gpu::Sampler::linear}, {"cellMass", mass_}}, push(),
+    commands.dispatch(massProgram_, {{"density", asset_->density, gpu::Sampler::linear}, {"cellMass", mass_}}, push(),
                       gpu::linearGroups(grid_.count(), 64));
     commands.submit();
     commands.wait();
     return litCells(grid_.cells, gpu::download<float>(context, mass_));
 }
 
-shared::LightFieldPush LightField::push() const {
+shared::LightFieldPush LightCells::push() const {
     shared::LightFieldPush push{};
-    push.size = cloud_.size;
+    push.size = asset_->size;
     push.grid = grid_.cells;
     push.edge = grid_.edge;
     return push;
@@ -96,10 +99,10 @@ glm::vec3 LightField::scale() const {
     return 1.0F / glm::vec3(grid_.cells * grid_.edge);
 }
 
-void LightField::recordCounts(gpu::Commands& commands, const gpu::Image& fluences,
+void LightCells::recordCounts(gpu::Commands& commands, const gpu::Image& fluences,
                               const CollisionEstimates& estimates) const {
     shared::LightCountsPush values{};
-    values.size = cloud_.size;
+    values.size = asset_->size;
     values.grid = grid_.cells;
     values.estimatorCells = estimatorGrid_.cells;
     values.estimatorAcross = grid_.edge / estimatorGrid_.edge;
@@ -111,8 +114,8 @@ void LightField::recordCounts(gpu::Commands& commands, const gpu::Image& fluence
     values.occupied = lit_.occupied;
     commands.pass("light counts");
     commands.dispatch(countsProgram_,
-                      {{"density", cloud_.density, gpu::Sampler::nearest},
-                       {"collectorIndex", cloud_.collectorIndex, gpu::Sampler::nearest},
+                      {{"density", asset_->density, gpu::Sampler::nearest},
+                       {"collectorIndex", asset_->collectorIndex, gpu::Sampler::nearest},
                        {"fluences", fluences},
                        {"CollisionEstimates", estimates.counts},
                        {"cellMass", mass_},
@@ -123,25 +126,27 @@ void LightField::recordCounts(gpu::Commands& commands, const gpu::Image& fluence
     commands.barrier("light counts");
 }
 
-void LightField::record(gpu::Commands& commands, const glm::vec3& eyeVoxel, const gpu::Image& radiance) const {
-    shared::LightFieldPush values = push();
+void LightField::record(gpu::Commands& commands, const LightCells& of, const glm::vec3& eyeVoxel,
+                        const gpu::Image& radiance) const {
+    const cloud::Asset& asset = of.asset();
+    shared::LightFieldPush values = of.push();
     values.eye = eyeVoxel;
-    values.voxelToWorld = glm::mat3(cloud_.toWorld.linear);
-    values.occupied = lit_.occupied;
-    values.lit = static_cast<std::uint32_t>(lit_.numbers.size());
+    values.voxelToWorld = glm::mat3(asset.voxelToMetres);
+    values.occupied = of.lit_.occupied;
+    values.lit = static_cast<std::uint32_t>(of.lit_.numbers.size());
     commands.pass("light field");
-    commands.dispatch(cellsProgram_,
-                      {{"density", cloud_.density, gpu::Sampler::nearest},
-                       {"collectorIndex", cloud_.collectorIndex, gpu::Sampler::nearest},
+    commands.dispatch(of.cellsProgram_,
+                      {{"density", asset.density, gpu::Sampler::nearest},
+                       {"collectorIndex", asset.collectorIndex, gpu::Sampler::nearest},
                        {"radiance", radiance},
-                       {"counts", counts_},
+                       {"counts", of.counts_},
                        {"cells", cells_},
-                       {"LitCells", litCells_}},
-                      values, gpu::linearGroups(lit_.occupied, 64));
+                       {"LitCells", of.litCells_}},
+                      values, gpu::linearGroups(of.lit_.occupied, 64));
     commands.barrier("light cells");
-    commands.dispatch(smoothProgram_,
-                      {{"cells", cells_}, {"ownShare", ownShare_}, {"lightField", image_}, {"LitCells", litCells_}},
-                      values, gpu::linearGroups(lit_.numbers.size(), 64));
+    commands.dispatch(of.smoothProgram_,
+                      {{"cells", cells_}, {"ownShare", of.ownShare_}, {"lightField", image_}, {"LitCells", of.litCells_}},
+                      values, gpu::linearGroups(of.lit_.numbers.size(), 64));
 }
 
 }  // namespace lumulus::light

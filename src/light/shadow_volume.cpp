@@ -29,9 +29,9 @@ glm::dmat3 texelToTexture(const ShadowGrid& grid) {
 
 }  // namespace
 
-ShadowGrid makeShadowGrid(const cloud::Cloud& cloud, const glm::dvec3& sunTravel, double maxTexels, int reduction) {
+ShadowGrid makeShadowGrid(const cloud::Asset& cloud, const glm::dvec3& sunTravel, double maxTexels, int reduction) {
     const glm::dmat3 frame = lightFrame(sunTravel);
-    const glm::dmat3 voxelToLight = glm::transpose(frame) * cloud.toWorld.linear;
+    const glm::dmat3 voxelToLight = glm::transpose(frame) * cloud.voxelToMetres;
     glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 p =
@@ -52,7 +52,7 @@ ShadowGrid makeShadowGrid(const cloud::Cloud& cloud, const glm::dvec3& sunTravel
     return grid;
 }
 
-ShadowVolume::ShadowVolume(gpu::Context& context, const cloud::Cloud& cloud)
+ShadowVolume::ShadowVolume(gpu::Context& context, const cloud::Asset& cloud)
     : context_(context), cloud_(cloud), program_(context, "shadow_volume", spirv::shadow_volume_comp) {}
 
 void ShadowVolume::lay(Filled& filled, const glm::dvec3& sunTravel, double extinction, int reduction) {

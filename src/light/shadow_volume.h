@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "cloud/cloud.h"
+#include "cloud/asset.h"
 #include "gpu/commands.h"
 #include "shared/draw.h"
 
@@ -19,13 +19,13 @@ struct ShadowGrid {
 
 /// A grid that covers the cloud's box, as fine as its voxels where that stays within `maxTexels`, or `reduction` times
 /// as coarse.
-ShadowGrid makeShadowGrid(const cloud::Cloud& cloud, const glm::dvec3& sunTravel, double maxTexels, int reduction = 1);
+ShadowGrid makeShadowGrid(const cloud::Asset& cloud, const glm::dvec3& sunTravel, double maxTexels, int reduction = 1);
 
 /// Optical depth towards the sun through the whole cloud. Made anew for each direction of the sun; not at all for a
 /// scene without one.
 class ShadowVolume {
   public:
-    ShadowVolume(gpu::Context& context, const cloud::Cloud& cloud);
+    ShadowVolume(gpu::Context& context, const cloud::Asset& cloud);
 
     /// Records what fills the grid. `extinction` is σt at density 1 [1/m]. The work falls with the third power of
     /// `reduction`.
@@ -55,7 +55,7 @@ class ShadowVolume {
     void fill(gpu::Commands& commands, Filled& filled, int rows);
 
     gpu::Context& context_;
-    const cloud::Cloud& cloud_;
+    const cloud::Asset& cloud_;
     gpu::Program<shared::ShadowVolumePush> program_;
     Filled shown_, next_;
 };

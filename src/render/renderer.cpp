@@ -1,20 +1,18 @@
 #include "render/renderer.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <cassert>
 
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "base/stopwatch.h"
+#include "frame/view_params.h"
+#include "render/changes.h"
+#include "render/picture.h"
 #include "render/renderer_state.h"
-#include "volume/load.h"
 
 namespace lumulus {
 
 namespace {
-
-constexpr double degrees = 3.14159265358979323846 / 180.0;
 
 /// The scene, if all that is in it can be drawn.
 const scene::Scene& drawable(const scene::Scene& scene) {
@@ -25,134 +23,231 @@ const scene::Scene& drawable(const scene::Scene& scene) {
     return scene;
 }
 
+void addTimes(Statistics& statistics, const std::vector<gpu::PassTime>& times) {
+    for (const gpu::PassTime& pass : times) {
+        const auto known = std::ranges::find(statistics.passes, pass.name, &PassTime::name);
+        if (known == statistics.passes.end())
+            statistics.passes.push_back({pass.name, pass.milliseconds});
+        else
+            known->milliseconds += pass.milliseconds;
+    }
+}
+
+void addCounters(Statistics& statistics, const photon::PhotonMap& photons) {
+    const photon::Counters& c = photons.counters();
+    statistics.photons += c.emitted;
+    statistics.generations = static_cast<std::uint64_t>(photons.generationsInRing());
+    statistics.events += c.events;
+    statistics.nullCollisions += c.nulls;
+    statistics.absorbed += c.absorbed;
+    statistics.escaped += c.escaped;
+    statistics.lost += c.lost;
+    statistics.saturated += c.saturated;
+}
+
 }  // namespace
 
-void Renderer::State::makeMedium(const scene::Cloud& from, double maximum) {
-    medium.extinction = from.extinction * from.densityScale * maximum;
-    medium.albedo = from.albedo;
-    medium.tables = phase::makeScatteringTables(from.phase, scene.photonMap.forwardCut * degrees, from.albedo,
-                                                scene.photonMap.bands, scene.sun.angularDiameter * degrees);
-}
-
-void Renderer::State::prepareCloud(const vdb::Volume& volume) {
-    cloud::PrepareOptions options;
-    options.preparation = scene.preparation;
-    options.majorant = scene.photonMap.majorant;
-    const double forward = scene.photonMap.bands > 1 ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
-    options.reducedExtinction =
-        medium.extinction * static_cast<double>(medium.tables.scatterFraction) * (1.0 - forward);
-    cloud.emplace(cloud::prepare(context, volume, options));
-    statistics.collectors = cloud->collectors.size();
-    if (cloud->tree.limited)
-        statistics.warnings.push_back("samples of the gradient asked for more than " +
-                                      std::to_string(scene.preparation.maxLeaves) +
-                                      " collectors: light is smeared in those that stay too large; raise "
-                                      "preparation.max_leaves or lower preparation.samples");
-}
-
-void Renderer::State::preparePhotons() {
-    if (!scatters() || !hasLight()) return;
-    const scene::PhotonMap& wanted = scene.photonMap;
-    const auto generations = static_cast<std::uint64_t>(wanted.generations);
-    const std::uint64_t each = (static_cast<std::uint64_t>(wanted.photons) + generations - 1) / generations;
-    if (each > 0xF0000000ULL)
-        throw InputError("a generation would hold " + std::to_string(each) + " photons, more than 4026531840",
-                         "photon_map.photons", "ask for more generations or fewer photons");
-    // progressive: as fine as any number of photons may ask for
-    estimatorGrid = light::lightGrid(
-        *cloud, progressive ? std::numeric_limits<std::uint64_t>::max() : static_cast<std::uint64_t>(wanted.photons));
-    photon::Options options;
-    options.photonsPerGeneration = each;
-    options.generations = wanted.generations;
-    options.firstGeneration = static_cast<std::uint32_t>(wanted.firstGeneration);
-    options.bands = wanted.bands;
-    options.seed = wanted.seed;
-    options.keepRing = keepRing;
-    options.splitGenerations = progressive;
-    options.estimates = estimatorGrid;
-    options.check = check;
-    options.memoryBudget = static_cast<std::uint64_t>(std::ldexp(wanted.memoryBudget, 20));
-    photons.emplace(context, *cloud, medium, options);
-}
+ViewState::ViewState() : state_(std::make_unique<State>()) {}
+ViewState::ViewState(ViewState&&) noexcept = default;
+ViewState& ViewState::operator=(ViewState&&) noexcept = default;
+ViewState::~ViewState() = default;
 
 Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
     : state_(std::make_unique<State>(drawable(scene), options)) {
     State& s = *state_;
+    s.keepRing = options.keepRing;
     s.statistics.device = s.context.device().name;
     if (!scene.fog.media.empty()) s.fog.emplace(s.context, scene.fog, s.check);
-    if (scene.clouds.empty()) {
-        makeCamera(scene.camera, scene.image, Bounds{});  // what is wrong with it shows before the work
-        return;
-    }
-    const Stopwatch loading;
-    CloudVolume loaded = loadCloudVolume(scene.clouds[0], scene.preparation.memoryBudget, s.report);
-    s.statistics.warnings = std::move(loaded.warnings);
-    s.statistics.loadSeconds = loading.seconds();
-    s.bounds = boundsOf(loaded.volume);
-    makeCamera(scene.camera, scene.image, s.bounds);
-    s.dimSun();
-    if (loaded.volume.empty()) return;
-
+    WorldReport report;
+    s.world.emplace(makeWorld(s.context, scene, {options.keepRing, options.progressive, s.report, s.check}, report));
+    s.statistics.warnings = std::move(report.warnings);
+    s.statistics.loadSeconds = report.loadSeconds;
     const Stopwatch preparing;
-    s.report("preparing the cloud", 0, 1);
-    s.makeMedium(scene.clouds[0], static_cast<double>(loaded.volume.maximum));
-    if (s.medium.extinction > 0.0) {
-        s.prepareCloud(loaded.volume);
-        stopIfInterrupted();
-        s.preparePhotons();
-        stopIfInterrupted();
-        s.prepareDrawing();
-    }
-    s.report("preparing the cloud", 1, 1);
-    s.statistics.prepareSeconds = preparing.seconds();
+    for (const auto& asset : s.world->assets) s.statistics.collectors += asset->collectors.size();
+    if (!s.world->visible().empty()) s.painter.emplace(s.context, *s.world, scene.draw);
+    s.statistics.prepareSeconds = report.prepareSeconds + preparing.seconds();
 }
 
 Renderer::~Renderer() = default;
 
 int Renderer::generationsWanted() const {
-    return state_->photons ? state_->scene.photonMap.generations : 0;
+    return state_->world->hasPhotons() ? state_->photonMap.generations : 0;
 }
 
 void Renderer::traceGeneration() {
     State& s = *state_;
     const Stopwatch watch;
-    if (s.photons) s.photons->trace(s.sunlight, s.scene.sky);
-    s.forgetLight();
+    for (light::InstanceLight& light : s.world->light) {
+        if (light.photons) light.photons->trace(light.sun, s.world->lights.environment);
+        light.changed();
+    }
     ++s.sinceChange;
     s.statistics.traceSeconds += watch.seconds();
 }
 
-void Renderer::State::prepareDrawing() {
-    const draw::DrawFeatures features{!medium.tables.singleScatterH.empty(), scatters() && hasSun(),
-                                      photons.has_value(), medium.albedo == glm::dvec3(medium.albedo.x)};
-    if (features.sun) shadowVolume.emplace(context, *cloud);
-    phase.emplace(context, medium.tables, features.grey);
-    if (scene.draw.mode == scene::DrawMode::billboards) {
-        billboards.emplace(context, *cloud, features);
-    } else {
-        march.emplace(context, *cloud, features);
+View Renderer::sceneView() const {
+    View view;
+    view.camera = state_->camera;
+    view.image = state_->image;
+    return view;
+}
+
+const Bounds& Renderer::bounds() const {
+    return state_->world->bounds;
+}
+
+int Renderer::State::raysAcross(const Camera& seen, int most) const {
+    int rays = 1;
+    for (const std::size_t i : world->visible()) {
+        const cloud::Instance& instance = world->instances[i];
+        const double pixel = frame::pixelLength(seen, instance.middle());
+        rays = std::max(rays, frame::raysAcross(instance.voxelEdge() / pixel));
     }
+    return std::min(most, rays);
+}
+
+int Renderer::raysAcross(const View& view) const {
+    return state_->raysAcross(makeCamera(view, state_->world->bounds), view.mostRays);
+}
+
+void Renderer::State::show(ViewState::State& state, const View& view) const {
+    state.previous = state.camera;
+    state.camera = makeCamera(view, world->bounds);
+    state.tile = drawnTile(view);
+    state.raysAcross = raysAcross(state.camera, view.mostRays);
+    state.spacing = painter ? painter->samplingSpacing(*world, state.camera) : 1;
+}
+
+LayeredImage Renderer::draw() {
+    return draw(sceneView());
+}
+
+LayeredImage Renderer::draw(const View& view) {
+    ViewState state;
+    return draw(view, state);
+}
+
+LayeredImage Renderer::draw(const View& view, ViewState& viewState) {
+    State& s = *state_;
+    const Stopwatch watch;
+    s.show(viewState.state(), view);
+    s.work.times.clear();
+    for (light::InstanceLight& light : s.world->light) {
+        if (!light.photons) continue;
+        light.photons->settle();
+        frame::addTimes(s.work.times, light.photons->times());
+    }
+    PictureOrder order{s.work, *s.world, s.painter ? &*s.painter : nullptr, s.fog ? &*s.fog : nullptr,
+                       s.photonMap.bands, s.sunAllowed, s.check, s.report};
+    LayeredImage image = order.picture(viewState.state(), view);
+    s.statistics.passes.clear();
+    addTimes(s.statistics, s.work.times);
+    s.statistics.gpuBytes = s.context.allocatedBytes();
+    s.statistics.drawSeconds += watch.seconds();
+    return image;
+}
+
+Preview Renderer::preview() {
+    State& s = *state_;
+    ViewState viewState;
+    s.show(viewState.state(), sceneView());
+    PictureOrder order{s.work, *s.world, &*s.painter, nullptr, s.photonMap.bands, s.sunAllowed, s.check, noReport};
+    Preview preview = order.preview(viewState.state());
+    s.statistics.gpuBytes = s.context.allocatedBytes();
+    return preview;
+}
+
+LayeredImage Renderer::throughFog(const View& view, LayeredImage picture, std::vector<float> depth) {
+    State& s = *state_;
+    if (!s.fog) return picture;
+    return seenThroughFog(*s.fog, s.world->fog, makeCamera(view, s.world->bounds), std::move(picture),
+                          std::move(depth));
+}
+
+std::vector<std::string> Renderer::clouds() const {
+    std::vector<std::string> names;
+    for (const cloud::Instance& instance : state_->world->instances) names.push_back(instance.name);
+    return names;
+}
+
+std::size_t Renderer::findCloud(std::string_view nameOrIndex) const {
+    return findInstance(*state_->world, nameOrIndex);
+}
+
+const scene::Sun& Renderer::sun() const {
+    return state_->world->lights.sun;
+}
+
+double Renderer::extinction(std::size_t cloud) const {
+    const auto& instances = state_->world->instances;
+    return cloud < instances.size() ? instances[cloud].sceneExtinction : 0.0;
+}
+
+Generations Renderer::generations() const {
+    Generations result;
+    for (const light::InstanceLight& light : state_->world->light) {
+        if (!light.photons) continue;
+        result.first = light.photons->firstInRing();
+        result.count = light.photons->generationsInRing();
+        result.current = std::min(result.count, state_->sinceChange);
+        result.photonsEach += light.photons->photonsInRing() / static_cast<std::uint64_t>(std::max(1, result.count));
+    }
+    return result;
+}
+
+void Renderer::State::lightChanged() {
+    assert(keepRing);
+    sinceChange = 0;
+}
+
+bool Renderer::setSun(const glm::dvec3& directionTo, const glm::dvec3& irradiance) {
+    if (!lumulus::setSun(*state_->world, directionTo, irradiance)) return false;
+    state_->lightChanged();
+    return true;
+}
+
+bool Renderer::setExtinction(double extinction, std::optional<std::size_t> cloud) {
+    if (!lumulus::setExtinction(*state_->world, extinction, cloud)) return false;
+    state_->lightChanged();
+    return true;
+}
+
+void Renderer::allowSunReduction(int reduction) {
+    state_->sunAllowed = reduction;
+}
+
+int Renderer::sunReduction() const {
+    return shadowReduction(*state_->world);
+}
+
+bool Renderer::sharpenSun(double share) {
+    return sharpenShadows(state_->work, *state_->world, share);
+}
+
+void Renderer::setOffset(const glm::dvec3& offset, std::optional<std::size_t> cloud) {
+    lumulus::setOffset(*state_->world, offset, cloud);
+}
+
+bool Renderer::setWind(const glm::dvec3& velocity) {
+    if (velocity == state_->world->wind) return false;
+    state_->world->wind = velocity;
+    return true;
+}
+
+void Renderer::setTime(double seconds) {
+    setOffset(seconds * state_->world->wind);
 }
 
 Statistics Renderer::statistics() const {
     Statistics result = state_->statistics;
-    if (state_->photons) {
-        const photon::Counters& c = state_->photons->counters();
-        result.photons = c.emitted;
-        result.generations = static_cast<std::uint64_t>(state_->photons->generationsInRing());
-        result.events = c.events;
-        result.nullCollisions = c.nulls;
-        result.absorbed = c.absorbed;
-        result.escaped = c.escaped;
-        result.lost = c.lost;
-        result.saturated = c.saturated;
-        if (c.lost > 0)
-            result.warnings.push_back(std::to_string(c.lost) + " of " + std::to_string(c.emitted) +
-                                      " photons scattered too often and were given up: their light is missing");
-        if (c.saturated > 0)
-            result.warnings.push_back(std::to_string(c.saturated) +
-                                      " coefficients met the limit of their integers: the picture is too dark there");
-    }
+    for (const light::InstanceLight& light : state_->world->light)
+        if (light.photons) addCounters(result, *light.photons);
+    if (result.lost > 0)
+        result.warnings.push_back(std::to_string(result.lost) + " of " + std::to_string(result.photons) +
+                                  " photons scattered too often and were given up: their light is missing");
+    if (result.saturated > 0)
+        result.warnings.push_back(std::to_string(result.saturated) +
+                                  " coefficients met the limit of their integers: the picture is too dark there");
     result.validationMessages = state_->context.validationMessages();
     return result;
 }

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/image.h"
@@ -66,7 +68,24 @@ struct Generations {
     std::uint64_t photons() const { return photonsEach * static_cast<std::uint64_t>(count); }
 };
 
-/// Owns the device, the cloud and the photon map, and makes frames.
+/// What belongs to a viewer and outlives a frame: its camera and the one before, light fields towards its eye, what it
+/// has sampled. Owned by whoever looks (a channel of the service, a render command) and handed to each draw; it must not
+/// outlive the renderer that drew with it.
+class ViewState {
+  public:
+    ViewState();
+    ViewState(ViewState&&) noexcept;
+    ViewState& operator=(ViewState&&) noexcept;
+    ~ViewState();
+
+    struct State;
+    State& state() { return *state_; }
+
+  private:
+    std::unique_ptr<State> state_;
+};
+
+/// Orders the passes that make pictures of a world. It owns the device and the world, and nothing of a view.
 /// Errors: InputError for bad scenes, Error for what fails while running and where interrupted.
 class Renderer {
   public:
@@ -75,14 +94,16 @@ class Renderer {
 
     /// Generations that the scene asks for (0 where no photon is needed).
     int generationsWanted() const;
-    /// Traces one generation into the oldest slot of the ring.
+    /// Traces one generation into the oldest slot of the ring of every cloud.
     void traceGeneration();
-    /// Draws the view of the scene: layers as in the documented EXR contract.
+    /// Draws a view: layers as in the documented EXR contract. All views share the photons.
+    LayeredImage draw(const View& view, ViewState& state);
+    /// The same for a viewer who looks once.
+    LayeredImage draw(const View& view);
+    /// Draws the view of the scene once.
     LayeredImage draw();
     /// For progressive rendering, from two generations on after the last draw().
     Preview preview();
-    /// The same for any view: all views share the photons.
-    LayeredImage draw(const View& view);
     /// A picture of another renderer (layers R, G and B) as seen through the scene's fog; as it is where there is none.
     /// `depth` as the scene's `fog.depth` says, rows from the top. Both have the size of the view.
     LayeredImage throughFog(const View& view, LayeredImage picture, std::vector<float> depth);
@@ -90,27 +111,41 @@ class Renderer {
     View sceneView() const;
     /// Rays along each side of a pixel of the view.
     int raysAcross(const View& view) const;
-    /// Where the cloud is, before any offset.
+    /// Where the clouds are, before any offset.
     const Bounds& bounds() const;
 
+    /// Names of the clouds, in the order of the scene.
+    std::vector<std::string> clouds() const;
+    /// Index of a cloud by its name or its index. Errors: InputError where there is none.
+    std::size_t findCloud(std::string_view nameOrIndex) const;
+    /// The sun of now: the scene's until setSun() changes it.
+    const scene::Sun& sun() const;
+    /// Extinction of a cloud now, as in the scene [1/m]; 0 where the scene has no cloud.
+    double extinction(std::size_t cloud = 0) const;
+
     /// What the ring holds. Changes of light and medium age in with the generations traced from then on; what is drawn
-    /// without photons (the sun's first turn, transmittance) changes at once. They need `keepRing`.
+    /// without photons (the sun's first scattering, transmittance) changes at once. They need `keepRing`.
     Generations generations() const;
-    /// Both tell whether anything changed.
+    /// These tell whether anything changed. Without a cloud all clouds are meant.
     /// Errors: InputError where the scene was made without a sun.
     bool setSun(const glm::dvec3& directionTo, const glm::dvec3& irradiance);
     /// `extinction` as in the scene [1/m]. Errors: InputError where it is 0, or where nothing is there to be extinct.
-    bool setExtinction(double extinction);
-    /// Where the sun has moved, the next picture may show its first scattering by a grid this many times as coarse (≥
-    /// 1): making it whole can take longer than the picture. It stays so until sharpenSun() is done, or a picture is
-    /// drawn with less allowed.
+    bool setExtinction(double extinction, std::optional<std::size_t> cloud = {});
+    /// Allows the next pictures to show the sun's first scattering by shadow volumes this many times as coarse (≥ 1)
+    /// where the sun has moved: making them whole can take longer than the picture. They stay so until sharpenSun() is
+    /// done, or a picture is drawn with less allowed.
     void allowSunReduction(int reduction);
-    /// Of what the last picture showed; 1: none, 0: the next one has to make the sun's grid.
+    /// Coarseness of the shadow volumes that the last picture showed; 1: whole, 0: the next one has to make them.
     int sunReduction() const;
-    /// Does about this share (0 to 1) of what is missing after a picture with a reduction. True where nothing is.
+    /// Completes `share` (0 to 1) of the shadow volume that the last picture used at reduced resolution. Returns true
+    /// when nothing is missing.
     bool sharpenSun(double share);
-    /// Moves the cloud from where the scene has it [m]; light from infinity does not see it.
-    void setOffset(const glm::dvec3& offset);
+    /// Moves the clouds from where the scene has them [m]; light from infinity does not see it.
+    void setOffset(const glm::dvec3& offset, std::optional<std::size_t> cloud = {});
+    /// Sets the velocity with which the clouds drift [m/s]. Returns whether it changed.
+    bool setWind(const glm::dvec3& velocity);
+    /// Moves the clouds to where the wind has carried them at this time [s]; at 0 they are where the scene has them.
+    void setTime(double seconds);
 
     Statistics statistics() const;
 

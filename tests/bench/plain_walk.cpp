@@ -86,14 +86,14 @@ struct PlainWalk::Sums {
     std::uint64_t events = 0, nulls = 0, records = 0;
 };
 
-PlainWalk::PlainWalk(const vdb::Volume& volume, const cloud::Cloud& cloud, const photon::Medium& medium)
+PlainWalk::PlainWalk(const vdb::Volume& volume, const cloud::Asset& cloud, const photon::Medium& medium)
     : medium_(medium),
       collectors_(cloud.collectors.size()),
       size_(cloud.size),
       cells_(cloud.majorants.cells),
       cellSize_(cloud.majorants.cellSize),
-      worldToCells_(glm::mat3(glm::inverse(cloud.toWorld.linear))),
-      faceArea_(photon::faceAreas(cloud.toWorld.linear, glm::dvec3(cloud.size))),
+      worldToCells_(glm::mat3(glm::inverse(cloud.voxelToMetres))),
+      faceArea_(photon::faceAreas(cloud.voxelToMetres, glm::dvec3(cloud.size))),
       majorants_(cloud::majorantsAndDistances(cloud.majorants)),
       density_(volume.density.size()),
       collectorIndex_(volume.density.size(), noCollector) {

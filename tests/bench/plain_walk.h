@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "cloud/cloud.h"
+#include "cloud/asset.h"
 #include "light/photon/photon_map.h"
 #include "scene/scene.h"
 #include "vdb/volume.h"
@@ -28,7 +28,7 @@ class PlainWalk {
     static constexpr int bands = 6;
 
     /// All must outlive the walk. At most 65,535 collectors.
-    PlainWalk(const vdb::Volume& volume, const cloud::Cloud& cloud, const photon::Medium& medium);
+    PlainWalk(const vdb::Volume& volume, const cloud::Asset& cloud, const photon::Medium& medium);
 
     /// Number float: the fastest store, whose last bits depend on which thread walked which photon. std::int64_t: the
     /// GPU's store, integers of the same unit, whose bits do not.

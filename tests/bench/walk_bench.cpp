@@ -175,7 +175,7 @@ void run(const std::string& path, const std::vector<std::string>& overrides) {
     const vdb::Volume volume = loadCloudVolume(scene.clouds.at(0), scene.preparation.memoryBudget).volume;
     const photon::Medium medium = mediumOf(scene, volume);
     gpu::Context context({});
-    const cloud::Cloud cloud = cloud::prepare(context, volume, prepareOptions(scene, medium));
+    const cloud::Asset cloud = cloud::prepare(context, volume, prepareOptions(scene, medium));
     photon::Options options;
     options.photonsPerGeneration = photons;
     options.bands = PlainWalk::bands;

@@ -29,7 +29,7 @@ std::size_t collectorOf(const Billboard& billboard) {
 
 class MakeBillboards : public test::VulkanTest {
   protected:
-    cloud::Cloud cloud = cloud::prepare(context, test::cloudCases()[2].volume, test::prepareOptions(1000));
+    cloud::Asset cloud = cloud::prepare(context, test::cloudCases()[2].volume, test::prepareOptions(1000));
 
     static Camera cameraAt(const dvec3& position, scene::Projection projection) {
         scene::Camera camera;

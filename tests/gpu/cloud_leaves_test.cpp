@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "cloud/cloud.h"
+#include "cloud/asset.h"
 #include "gpu/transfer.h"
 #include "support/cloud_cases.h"
 #include "support/field.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "cloud/cloud.h"
+#include "cloud/asset.h"
 #include "support/cloud_cases.h"
 #include "support/field.h"
 #include "support/vulkan_fixture.h"

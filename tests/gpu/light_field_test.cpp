@@ -108,7 +108,7 @@ class LightFieldTest : public test::VulkanTest, public testing::WithParamInterfa
         return image;
     }
 
-    Grid<glm::vec4> filled(const cloud::CellGrid& cells, const cloud::Cloud& cloud) {
+    Grid<glm::vec4> filled(const cloud::CellGrid& cells, const cloud::Asset& cloud) {
         std::vector<std::int64_t> counts(shared::estimatorCounts(cells.cells));
         const Grid<double> numbers(cells.cells);
         forEach(ivec3(0), cells.cells, [&](const ivec3& cell) {
@@ -135,7 +135,7 @@ class LightFieldTest : public test::VulkanTest, public testing::WithParamInterfa
 TEST_P(LightFieldTest, HoldsWhatWasCountedAndNothingElse) {
     vdb::Volume volume = test::emptyVolume(density.size);
     test::fillVolume(volume, density);
-    const cloud::Cloud cloud = cloud::prepare(context, volume, test::prepareOptions(200));
+    const cloud::Asset cloud = cloud::prepare(context, volume, test::prepareOptions(200));
     const cloud::CellGrid cells{edge, (density.size + edge - 1) / edge};
     const Grid<dvec4> known = expected(cells.cells);
     const Grid<glm::vec4> found = filled(cells, cloud);
@@ -155,7 +155,7 @@ TEST_P(LightFieldTest, HoldsWhatWasCountedAndNothingElse) {
 TEST_F(LongCloud, HasRoomForTheRing) {
     vdb::Volume volume = test::emptyVolume({2048, 4, 4});
     test::fillVolume(volume, [](const ivec3&) { return 1.0; });
-    const cloud::Cloud cloud = cloud::prepare(context, volume, test::prepareOptions(50));
+    const cloud::Asset cloud = cloud::prepare(context, volume, test::prepareOptions(50));
     const cloud::CellGrid cells = lightGrid(cloud, 1'000'000'000);
     EXPECT_EQ(cells.edge, 2);
     const LightField field(context, cloud, cells, cells);

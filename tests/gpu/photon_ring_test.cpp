@@ -18,7 +18,7 @@ class PhotonRing : public test::VulkanTest {
   protected:
     static constexpr int bands = 3;
     static constexpr int slots = 4;
-    cloud::Cloud cloud = cloud::prepare(context, ballVolume(18, 20.0), test::prepareOptions(400));
+    cloud::Asset cloud = cloud::prepare(context, ballVolume(18, 20.0), test::prepareOptions(400));
     Medium medium = test::mediumOf({.extinction = 0.1, .albedo = {1.0, 0.9, 0.7}, .bands = bands});
 
     Options options(std::uint64_t seed = 1) const { return test::mapOptions(3000, slots, bands, seed); }

@@ -14,7 +14,7 @@ using glm::dvec3;
 
 class PhotonStore : public test::VulkanTest {
   protected:
-    cloud::Cloud cloud = cloud::prepare(context, ballVolume(18, 20.0), test::prepareOptions(400));
+    cloud::Asset cloud = cloud::prepare(context, ballVolume(18, 20.0), test::prepareOptions(400));
 
     Counters traced(const Medium& medium, const scene::Sun& sun, const scene::Sky& sky, std::uint64_t photons) {
         PhotonMap map(context, cloud, medium, test::mapOptions(photons, 1, 1));

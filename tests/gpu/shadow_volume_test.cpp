@@ -30,7 +30,7 @@ struct DepthGrid {
 class ShadowVolumeTest : public test::VulkanTest {
   protected:
     /// Fills the grid for light that travels along `travel`; the look-up's matrix must agree with the grid's place.
-    DepthGrid fill(const cloud::Cloud& cloud, const dvec3& travel, double extinction) {
+    DepthGrid fill(const cloud::Asset& cloud, const dvec3& travel, double extinction) {
         ShadowVolume sun(context, cloud);
         gpu::Commands commands(context);
         commands.begin();
@@ -59,7 +59,7 @@ TEST_F(ShadowVolumeTest, SlabFromAbove) {
         if (below < height + 0.5) return below - 1.0;
         return height - 0.5 * std::pow(std::max(0.0, height + 1.5 - below), 2);
     };
-    const cloud::Cloud cloud = cloud::prepare(context, boxVolume({20, height, 20}), test::prepareOptions(100));
+    const cloud::Asset cloud = cloud::prepare(context, boxVolume({20, height, 20}), test::prepareOptions(100));
     const double extinction = 0.5;
     const DepthGrid grid = fill(cloud, {0.0, -1.0, 0.0}, extinction);
     int inside = 0;
@@ -80,7 +80,7 @@ TEST_F(ShadowVolumeTest, SlabFromAbove) {
 TEST_F(ShadowVolumeTest, BallFromAnySide) {
     constexpr double radius = 20.0, extinction = 0.2;
     const vdb::Volume ball = ballVolume(34, radius);
-    const cloud::Cloud cloud = cloud::prepare(context, ball, test::prepareOptions(100));
+    const cloud::Asset cloud = cloud::prepare(context, ball, test::prepareOptions(100));
     for (const dvec3& direction : {dvec3(0, -1, 0), dvec3(1, -2, 0.5), dvec3(-3, 1, 2), dvec3(0, 0, 1)}) {
         const dvec3 travel = glm::normalize(direction);
         const DepthGrid grid = fill(cloud, travel, extinction);
@@ -110,7 +110,7 @@ TEST_F(ShadowVolumeTest, BallFromAnySide) {
 TEST_F(ShadowVolumeTest, ShearedCloudAgreesWithQuadrature) {
     const test::CloudCase c = test::cloudCases()[2];
     const test::Field field(c.volume);
-    const cloud::Cloud cloud = cloud::prepare(context, c.volume, test::prepareOptions(100));
+    const cloud::Asset cloud = cloud::prepare(context, c.volume, test::prepareOptions(100));
     const dvec3 travel = glm::normalize(dvec3(0.5, -1.0, 0.3));
     const double extinction = 0.1;
     const DepthGrid grid = fill(cloud, travel, extinction);
@@ -131,7 +131,7 @@ TEST_F(ShadowVolumeTest, ShearedCloudAgreesWithQuadrature) {
 
 /// The grid holds every corner of the box and stays within the texels that it may have.
 TEST_F(ShadowVolumeTest, GridCoversTheCloud) {
-    const cloud::Cloud cloud = cloud::prepare(context, test::cloudCases()[1].volume, test::prepareOptions(100));
+    const cloud::Asset cloud = cloud::prepare(context, test::cloudCases()[1].volume, test::prepareOptions(100));
     for (const double most : {1e3, 1e5, 1e8})
         for (const dvec3& direction : {dvec3(0, -1, 0), dvec3(0, 1, 0), dvec3(1, 1, 1), dvec3(-1, 0, 1e-9)}) {
             const ShadowGrid grid = makeShadowGrid(cloud, glm::normalize(direction), most);

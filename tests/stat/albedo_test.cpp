@@ -28,7 +28,7 @@ class Absorption : public test::VulkanTest {
     static constexpr int generations = 12;
     static constexpr std::uint64_t photons = 8000;
     static constexpr double extinction = 0.15;
-    cloud::Cloud cloud = cloud::prepare(context, ballVolume(18, 20.0), test::prepareOptions(300));
+    cloud::Asset cloud = cloud::prepare(context, ballVolume(18, 20.0), test::prepareOptions(300));
 
     Turned turned(const Medium& medium, const scene::Sun& sun, const scene::Sky& sky, std::uint64_t seed) {
         PhotonMap map(context, cloud, medium, test::mapOptions(photons, generations, 1, seed));
@@ -101,7 +101,7 @@ TEST_F(Absorption, CollisionsAbsorbTheirShare) {
 TEST_F(Absorption, EnergyIsConserved) {
     const Medium medium = test::mediumOf({.extinction = extinction, .albedo = dvec3(0.8)});
     const Turned t = turned(medium, test::noSun(), test::skyOf(dvec3(1.0)), 4);
-    const double edge = cloud.toWorld.linear[0][0] * cloud.size.x;
+    const double edge = cloud.voxelToMetres[0][0] * cloud.size.x;
     const double power = std::numbers::pi * 6.0 * edge * edge / static_cast<double>(photons);
     const double collided = t.channel[1].mean() * generations;
     EXPECT_NEAR(collided, power * static_cast<double>(t.counters.events), 1e-4 * collided);

@@ -20,7 +20,7 @@ class FreePath : public test::VulkanTest {
     static constexpr std::uint64_t photons = 200'000;
 
     /// Escaped photons against the expected share of them, in standard errors of the binomial distribution.
-    void expectEscaping(const cloud::Cloud& cloud, double extinction, const scene::Sun& sun, double transmittance) {
+    void expectEscaping(const cloud::Asset& cloud, double extinction, const scene::Sun& sun, double transmittance) {
         const Medium black = test::mediumOf({.extinction = extinction, .albedo = dvec3(0.0)});
         PhotonMap map(context, cloud, black, test::mapOptions(photons, 1, 1));
         map.trace(sun, test::skyOf(dvec3(0.0)));
@@ -50,7 +50,7 @@ double boxTransmittance(int n, double depth) {
 TEST_F(FreePath, AlongTheAxisOfABox) {
     constexpr int n = 30;
     for (const scene::Majorant majorant : {scene::Majorant::local, scene::Majorant::global}) {
-        const cloud::Cloud cloud = cloud::prepare(context, boxVolume({n, n, n}), test::prepareOptions(200, majorant));
+        const cloud::Asset cloud = cloud::prepare(context, boxVolume({n, n, n}), test::prepareOptions(200, majorant));
         for (const double depth : {0.1, 1.0, 5.0})
             expectEscaping(cloud, depth / n, test::sunFrom({0, 0, 1}, dvec3(1.0)), boxTransmittance(n, depth));
     }
@@ -63,7 +63,7 @@ TEST_F(FreePath, ThroughABallFromTheSide) {
     const dvec3 to(1.0, 2.0, -0.5);
     const test::SunRays rays = test::sunRays(field, ball.toWorld.linear, -to, 64);
     for (const scene::Majorant majorant : {scene::Majorant::local, scene::Majorant::global}) {
-        const cloud::Cloud cloud = cloud::prepare(context, ball, test::prepareOptions(200, majorant));
+        const cloud::Asset cloud = cloud::prepare(context, ball, test::prepareOptions(200, majorant));
         for (const double depth : {0.1, 1.0, 5.0}) {
             const double extinction = depth / (2.0 * radius);
             expectEscaping(cloud, extinction, test::sunFrom(to, dvec3(1.0)), rays.meanTransmittance(extinction));
@@ -77,7 +77,7 @@ TEST_F(FreePath, ThroughAShearedCloud) {
     const test::Field field(c.volume);
     const dvec3 to(-1.0, 0.7, 0.4);
     const test::SunRays rays = test::sunRays(field, c.volume.toWorld.linear, -to, 64);
-    const cloud::Cloud cloud = cloud::prepare(context, c.volume, test::prepareOptions(200, scene::Majorant::local));
+    const cloud::Asset cloud = cloud::prepare(context, c.volume, test::prepareOptions(200, scene::Majorant::local));
     for (const double extinction : {0.02, 0.2})
         expectEscaping(cloud, extinction, test::sunFrom(to, dvec3(1.0)), rays.meanTransmittance(extinction));
 }
@@ -85,7 +85,7 @@ TEST_F(FreePath, ThroughAShearedCloud) {
 /// A hundred optical depths from face to face: what gets through is what passes beside.
 TEST_F(FreePath, ThroughAThickBox) {
     constexpr int n = 30;
-    const cloud::Cloud cloud =
+    const cloud::Asset cloud =
         cloud::prepare(context, boxVolume({n, n, n}), test::prepareOptions(200, scene::Majorant::local));
     expectEscaping(cloud, 100.0 / n, test::sunFrom({0, 0, 1}, dvec3(1.0)), boxTransmittance(n, 100.0));
 }

@@ -57,8 +57,8 @@ struct Deviations {
 };
 
 /// Area of the box's six faces [m²].
-double boxSurface(const cloud::Cloud& cloud) {
-    const glm::dmat3 faces = faceAreas(cloud.toWorld.linear, glm::dvec3(cloud.size));
+double boxSurface(const cloud::Asset& cloud) {
+    const glm::dmat3 faces = faceAreas(cloud.voxelToMetres, glm::dvec3(cloud.size));
     return 2.0 * (glm::length(faces[0]) + glm::length(faces[1]) + glm::length(faces[2]));
 }
 
@@ -72,7 +72,7 @@ void Furnace::run(FurnaceCase c) {
     SCOPED_TRACE(c.name);
     cloud::PrepareOptions prepareOptions = test::prepareOptions(2000, c.majorant);
     prepareOptions.preparation.maxLeaves = c.leaves;
-    const cloud::Cloud cloud = cloud::prepare(context, c.volume, prepareOptions);
+    const cloud::Asset cloud = cloud::prepare(context, c.volume, prepareOptions);
     c.medium.extinction = c.extinction;
     c.medium.bands = bands;
     PhotonMap map(context, cloud, test::mediumOf(c.medium), test::mapOptions(c.photons, generations, bands));

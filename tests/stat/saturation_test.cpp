@@ -19,7 +19,7 @@ constexpr std::int64_t limit = (std::int64_t{1} << 61) - 1;
 
 class Saturation : public test::VulkanTest {
   protected:
-    cloud::Cloud cloud = cloud::prepare(context, ballVolume(18, 20.0), test::prepareOptions(400));
+    cloud::Asset cloud = cloud::prepare(context, ballVolume(18, 20.0), test::prepareOptions(400));
     PhotonMap map{context, cloud, test::mediumOf({.extinction = 0.1, .bands = bands}),
                   test::mapOptions(3000, 2, bands)};
 

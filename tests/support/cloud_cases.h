@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cloud/cloud.h"
+#include "cloud/asset.h"
 #include "stat/ball.h"
 #include "support/test_volumes.h"
 

@@ -1,7 +1,6 @@
 #include "light/photon/emission.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace lumulus::photon {
 
@@ -21,15 +20,12 @@ glm::dvec3 Emission::skyPower(std::uint64_t photons) const {
     return sunShare < 1.0 ? skyFlux / (static_cast<double>(photons) * (1.0 - sunShare)) : glm::dvec3(0.0);
 }
 
-Emission makeEmission(const scene::Sun& sun, const scene::Sky& sky, const glm::dmat3& faceArea) {
+Emission makeEmission(const scene::Sun& sun, const sky::Environment& environment, const glm::dmat3& faceArea) {
     Emission emission;
-    double projected = 0.0, area = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        projected += std::abs(glm::dot(faceArea[axis], sun.directionTo));
-        area += 2.0 * glm::length(faceArea[axis]);
-    }
+    double projected = 0.0;
+    for (int axis = 0; axis < 3; ++axis) projected += std::abs(glm::dot(faceArea[axis], sun.directionTo));
     emission.sunFlux = sun.irradiance * projected;
-    emission.skyFlux = sky.radiance * (std::numbers::pi * area);
+    emission.skyFlux = environment.fluxThrough(faceArea);
     const double both = luminance(emission.sunFlux) + luminance(emission.skyFlux);
     emission.sunShare = both > 0.0 ? luminance(emission.sunFlux) / both : 0.0;
     return emission;

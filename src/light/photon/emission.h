@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "scene/scene.h"
+#include "sky/environment.h"
 
 namespace lumulus::photon {
 
@@ -26,7 +27,7 @@ struct Emission {
 };
 
 /// Light that enters a box whose faces have these area vectors [m²] (one of each pair).
-Emission makeEmission(const scene::Sun& sun, const scene::Sky& sky, const glm::dmat3& faceArea);
+Emission makeEmission(const scene::Sun& sun, const sky::Environment& environment, const glm::dmat3& faceArea);
 
 /// Area vectors [m²] of the faces across x, y and z of a box of `size` voxels with the given edges (columns) [m]. They
 /// point the way of the edges, in a mirrored volume too.

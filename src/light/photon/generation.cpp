@@ -63,7 +63,7 @@ void PassLog::add(const gpu::Commands& commands) {
     }
 }
 
-GenerationTracer::GenerationTracer(gpu::Context& context, const cloud::Cloud& cloud, const Medium& medium,
+GenerationTracer::GenerationTracer(gpu::Context& context, const cloud::Asset& cloud, const Medium& medium,
                                    const Options& options)
     : cloud_(cloud),
       medium_(medium),
@@ -71,7 +71,7 @@ GenerationTracer::GenerationTracer(gpu::Context& context, const cloud::Cloud& cl
       collectors_(static_cast<std::uint32_t>(cloud.collectors.size())),
       invocations_(invocationsFor(context, options.photonsPerGeneration)),
       recordCapacity_(capacityFor(options.photonsPerGeneration, invocations_)),
-      faceArea_(faceAreas(cloud.toWorld.linear, glm::dvec3(cloud.size))),
+      faceArea_(faceAreas(cloud.voxelToMetres, glm::dvec3(cloud.size))),
       traceProgram_(context, "trace", traceSpirv(), traceConstants(medium.tables, medium.albedo, false)),
       scanProgram_(context, "scan", spirv::scan_comp),
       scatterProgram_(context, "scatter", spirv::scatter_comp),
@@ -101,7 +101,7 @@ shared::TraceParams GenerationTracer::traceParams(const Emission& emission, cons
     p.size = glm::vec3(cloud_.size);
     p.cells = cloud_.majorants.cells;
     p.cellSize = cloud_.majorants.cellSize;
-    glm::dmat3 cellEdges = cloud_.toWorld.linear;
+    glm::dmat3 cellEdges = cloud_.voxelToMetres;
     for (int axis = 0; axis < 3; ++axis) cellEdges[axis] *= static_cast<double>(p.cellSize[axis]);
     p.worldToCells = glm::mat3(glm::inverse(cellEdges));
     p.extinction = static_cast<float>(medium_.extinction * (1.0 - f * least));

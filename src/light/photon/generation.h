@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "cloud/cloud.h"
+#include "cloud/asset.h"
 #include "gpu/commands.h"
 #include "gpu/program.h"
 #include "light/photon/emission.h"
@@ -26,7 +26,7 @@ struct PassLog {
 class GenerationTracer {
   public:
     /// `cloud` and `medium` must outlive the tracer.
-    GenerationTracer(gpu::Context& context, const cloud::Cloud& cloud, const Medium& medium, const Options& options);
+    GenerationTracer(gpu::Context& context, const cloud::Asset& cloud, const Medium& medium, const Options& options);
 
     const glm::dmat3& faceArea() const { return faceArea_; }
 
@@ -37,7 +37,7 @@ class GenerationTracer {
                const gpu::Buffer& coefficients, Counters& counters, std::uint64_t& unsettledRecords, PassLog& log);
 
   private:
-    const cloud::Cloud& cloud_;
+    const cloud::Asset& cloud_;
     const Medium& medium_;
     Options options_;
     std::uint32_t collectors_;

@@ -76,11 +76,11 @@ std::uint32_t coefficientsOf(const gpu::Context& context, std::uint32_t collecto
 }  // namespace
 
 struct PhotonMap::State {
-    State(gpu::Context& gpuContext, const cloud::Cloud& preparedCloud, const Medium& theMedium,
+    State(gpu::Context& gpuContext, const cloud::Asset& preparedCloud, const Medium& theMedium,
           const Options& theOptions);
 
     gpu::Context& context;
-    const cloud::Cloud& cloud;
+    const cloud::Asset& cloud;
     Medium medium;
     Options options;
     std::uint32_t collectors;
@@ -121,7 +121,7 @@ struct PhotonMap::State {
     void recordAdd(const Buffer& from, const Buffer& to, int shift);
 };
 
-PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Cloud& preparedCloud, const Medium& theMedium,
+PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Asset& preparedCloud, const Medium& theMedium,
                         const Options& theOptions)
     : context(gpuContext),
       cloud(preparedCloud),
@@ -227,7 +227,7 @@ void PhotonMap::State::settle() {
     splitCounts = {};
 }
 
-PhotonMap::PhotonMap(gpu::Context& context, const cloud::Cloud& cloud, const Medium& medium, const Options& options)
+PhotonMap::PhotonMap(gpu::Context& context, const cloud::Asset& cloud, const Medium& medium, const Options& options)
     : state_(std::make_unique<State>(context, cloud, medium, options)) {
     State& s = *state_;
     const std::vector<double> mass = masses();
@@ -244,9 +244,9 @@ PhotonMap::PhotonMap(gpu::Context& context, const cloud::Cloud& cloud, const Med
 
 PhotonMap::~PhotonMap() = default;
 
-void PhotonMap::trace(const scene::Sun& sun, const scene::Sky& sky) {
+void PhotonMap::trace(const scene::Sun& sun, const sky::Environment& environment) {
     State& s = *state_;
-    const Emission emission = makeEmission(sun, sky, s.tracer.faceArea());
+    const Emission emission = makeEmission(sun, environment, s.tracer.faceArea());
     int unitExponent = 0;
     s.flux = luminance(emission.sunFlux + emission.skyFlux);
     if (!emission.dark()) {
@@ -292,7 +292,7 @@ void PhotonMap::reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, 
     push.collectors = s.collectors;
     push.scale = static_cast<float>(light.unit);
     push.eye = eyeVoxel;
-    push.voxelToWorld = glm::mat3(s.cloud.toWorld.linear);
+    push.voxelToWorld = glm::mat3(s.cloud.voxelToMetres);
     commands.pass("reconstruct");
     commands.dispatch(s.reconstructProgram,
                       {{"Sum", *light.counts},

@@ -8,19 +8,15 @@
 #include <vector>
 
 #include "base/interrupt.h"
-#include "cloud/cloud.h"
+#include "cloud/asset.h"
 #include "gpu/commands.h"
-#include "medium/scattering_tables.h"
+#include "medium/scattering_medium.h"
 #include "scene/scene.h"
+#include "sky/environment.h"
 
 namespace lumulus::photon {
 
-/// What photons need to know of the medium.
-struct Medium {
-    double extinction = 0.0;  ///< σt where the normalised density is 1 [1/m]
-    glm::dvec3 albedo{1.0};
-    phase::ScatteringTables tables;
-};
+using Medium = phase::ScatteringMedium;
 
 struct Options {
     std::uint64_t photonsPerGeneration = 100000;
@@ -66,11 +62,11 @@ class PhotonMap {
   public:
     /// `cloud` must outlive the map. Errors: InputError where the coefficients do not fit into the budget, or those of
     /// one generation into a buffer of the device.
-    PhotonMap(gpu::Context& context, const cloud::Cloud& cloud, const Medium& medium, const Options& options);
+    PhotonMap(gpu::Context& context, const cloud::Asset& cloud, const Medium& medium, const Options& options);
     ~PhotonMap();
 
-    /// Traces one generation into the oldest slot. Power of the lights: W·m⁻² (sun), W·m⁻²·sr⁻¹ (sky).
-    void trace(const scene::Sun& sun, const scene::Sky& sky);
+    /// Traces one generation into the oldest slot. Power of the lights: W·m⁻² (sun), W·m⁻²·sr⁻¹ (environment).
+    void trace(const scene::Sun& sun, const sky::Environment& environment);
 
     /// Adds what has been traced to the sum, unless the sum would be a copy of the one buffer that holds it all.
     void settle();

@@ -9,7 +9,7 @@
 #include "gpu/memory.h"
 #include "scene/scene.h"
 #include "vdb/quantise.h"
-#include "vdb/volume.h"
+#include "vdb/placed_volume.h"
 
 namespace lumulus::cloud {
 
@@ -54,10 +54,11 @@ struct PreparationTimes {
     double upload = 0.0, gradient = 0.0, sampling = 0.0, tree = 0.0, leaves = 0.0;
 };
 
-/// A cloud made ready for photons: immutable, on the GPU once.
-struct Cloud {
-    glm::ivec3 size{0};
-    vdb::Affine toWorld;
+/// What one density field needs once: prepared for photons and drawing, immutable, on the GPU once, shared by all
+/// instances that show it. It knows the shape of its voxels and not where in the world it stands.
+struct Asset {
+    glm::ivec3 size{0};         ///< voxels
+    glm::dmat3 voxelToMetres;   ///< edges of a voxel as they lie in the world, columns [m]
     double voxelVolume = 0.0;  ///< m³
     vdb::DensityFormat format = vdb::DensityFormat::r16f;
     gpu::Image density;         ///< normalised: 1 is the field's maximum
@@ -81,9 +82,9 @@ struct PrepareOptions {
     std::uint32_t seed = 1;
 };
 
-/// Steps 1 to 5 of the preparation: gradient, samples, kD-tree, leaf statistics, collectors. `volume` must not be
-/// empty. Errors: Error where interrupted.
-Cloud prepare(gpu::Context& context, const vdb::Volume& volume, const PrepareOptions& options);
+/// Steps 1 to 5 of the preparation: gradient, samples, kD-tree, leaf statistics, collectors. The volume must not
+/// be empty. Errors: Error where interrupted.
+Asset prepare(gpu::Context& context, const vdb::PlacedVolume& placed, const PrepareOptions& options);
 
 /// What the GPU reads: the majorant of each cell, or where that is 0, −d with d the Chebyshev distance, in cells, to
 /// the nearest cell with a majorant (the sum of the grid's edges where there is none). A walk may cross all cells

@@ -1,8 +1,46 @@
-// Delta (Woodcock) tracking through a grid of majorants, one cell at a time. The position is a cell and an offset in it:
-// at optical depths of 1e5 and more, steps in coordinates of the whole volume would round by percents.
-// The walk knows nothing of what happens at a collision: photons and transmittance share it.
-#ifndef LUMULUS_LIB_TRACKING
-#define LUMULUS_LIB_TRACKING
+// How everything that travels through a cloud travels: from cell to cell of its grid of majorants. What happens on the way is
+// not known here. Photons walk from collision to collision (Walk): their position is a cell and an offset in it, since at
+// optical depths of 1e5 and more, steps in coordinates of the whole volume would round by percents. View rays and columns of
+// shadow volumes go along a line from one distance to the next (Line): their position is a distance, by which what they meet
+// in several instances is put in order (lib/instances.glsl). Cells without density hold, as a negative number, the distance
+// in cells to the nearest one that has some: all nearer ones are crossed at once.
+#ifndef LUMULUS_LIB_TRAVERSAL
+#define LUMULUS_LIB_TRAVERSAL
+
+/// Cells around one of this majorant that are empty too.
+int emptyReach(float majorant) { return int(max(-majorant - 1.0, 0.0)); }
+
+/// A straight line in voxel coordinates: start + velocity · metres.
+struct Line {
+    vec3 start, velocity;
+    vec3 inverse;  // of the velocity
+    bvec3 ahead;
+};
+
+Line lineFrom(vec3 start, vec3 velocity) {
+    const bvec3 aside = lessThan(abs(velocity), vec3(1.0e-30));  // never meets those faces
+    velocity = mix(velocity, vec3(0.0), aside);
+    return Line(start, velocity, 1.0 / mix(velocity, vec3(1.0e-30), aside), greaterThan(velocity, vec3(0.0)));
+}
+
+/// Distances [m] between which the line is in a volume of `size` voxels; empty where first >= second.
+vec2 clipToVolume(Line line, vec3 size) {
+    const vec3 a = -line.start * line.inverse, b = (size - line.start) * line.inverse;
+    const vec3 low = min(a, b), high = max(a, b);
+    return vec2(max(max(low.x, low.y), max(low.z, 0.0)), min(high.x, min(high.y, high.z)));
+}
+
+/// From a cell over the `reach` next ones on all sides: the distance at which the line leaves them, and the cell there.
+float leaveCells(Line line, inout ivec3 cell, int reach, vec3 cellSize) {
+    const ivec3 beyond = cell + mix(ivec3(-reach - 1), ivec3(reach + 1), line.ahead);
+    const vec3 face = vec3(cell + mix(ivec3(-reach), ivec3(reach + 1), line.ahead)) * cellSize;
+    const vec3 distances =
+        mix((face - line.start) * line.inverse, vec3(3.4e38), equal(line.velocity, vec3(0.0)));
+    const float leave = min(distances.x, min(distances.y, distances.z));
+    const vec3 end = floor((line.start + line.velocity * leave) / cellSize);
+    cell = mix(clamp(ivec3(end), cell - reach, cell + reach), beyond, equal(distances, vec3(leave)));
+    return leave;
+}
 
 const uint WALK_CROSSED = 0u;    // into the next cell
 const uint WALK_COLLISION = 1u;  // a tentative collision

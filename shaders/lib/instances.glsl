@@ -1,0 +1,60 @@
+// The upper level of the traversal: the list of instances. A line is cut into segments in which it meets the same instances;
+// where it is in several at once, segments are so short that their order within one does not matter. The includer declares
+// `params`, the constant MANY (more than one instance) and, in main(), calls loadInstances().
+#ifndef LUMULUS_LIB_INSTANCES
+#define LUMULUS_LIB_INSTANCES
+
+#include "shared/draw.h"
+#include "lib/density.glsl"
+#include "lib/traversal.glsl"
+
+layout(binding = 12, scalar) readonly buffer Instances { InstanceParams instances[]; };
+
+// Held in registers where there is but one: a load from a buffer costs a loop over the lanes on lavapipe, in every step.
+InstanceParams onlyInstance;
+
+void loadInstances() {
+    if (!MANY) onlyInstance = instances[0];
+}
+
+InstanceParams instanceAt(int number) {
+    if (MANY) return instances[number];
+    return onlyInstance;
+}
+
+/// A ray (metres, relative to the eye) in the voxel coordinates of an instance.
+Line lineIn(InstanceParams instance, vec3 origin, vec3 direction) {
+    return lineFrom(instance.eyeVoxel + instance.worldToVoxel * origin, instance.worldToVoxel * direction);
+}
+
+/// Density of an instance, normalised. In an atlas neighbours must not shine through: the outermost voxels are empty.
+float densityIn(InstanceParams instance, sampler3D density, vec3 voxel) {
+    if (!MANY) return densityAt(density, voxel, 1.0 / instance.size);
+    return densityAt(density, instance.densityOrigin + clamp(voxel, vec3(0.5), instance.size - 0.5), params.atlas.density);
+}
+
+/// Voxels of the shorter one that a ray goes through before it looks for what it meets in another instance that it is in too.
+const float SHARED_SEGMENT = 2.0;
+
+/// The end of the segment that begins at a distance: the next distance at which an instance is entered or left, or a little
+/// way where the line is in several. Negative: nothing is met from there on.
+float segmentEnd(vec3 origin, vec3 direction, float begin) {
+    float end = 3.4e38, shortest = 3.4e38;
+    int within = 0;
+    for (int i = 0; i < params.instances; ++i) {
+        const InstanceParams instance = instanceAt(i);
+        const vec2 inside = clipToVolume(lineIn(instance, origin, direction), instance.size);
+        if (inside.x >= inside.y || inside.y <= begin) continue;
+        if (inside.x > begin) {
+            end = min(end, inside.x);
+        } else {
+            ++within;
+            end = min(end, inside.y);
+            shortest = min(shortest, SHARED_SEGMENT * instance.voxelLength);
+        }
+    }
+    if (within > 1) end = min(end, max(begin + shortest, begin * (1.0 + 1.0e-6)));
+    return end < 3.0e38 ? end : -1.0;
+}
+
+#endif

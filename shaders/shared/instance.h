@@ -1,0 +1,53 @@
+// An instance of a cloud as drawing passes see it: where it lies, what it is made of, where its volumes are found.
+#ifndef LUMULUS_SHARED_INSTANCE_H
+#define LUMULUS_SHARED_INSTANCE_H
+
+#include "shared/prelude.h"
+
+SHARED_BEGIN
+
+/// `voxel` are voxel coordinates of the instance; positions in metres are relative to the eye.
+struct InstanceParams {
+    mat3 worldToVoxel;   // of directions: voxels per metre
+    vec3 eyeVoxel;       // the camera's position
+    vec3 size;           // of the density volume, voxels
+    ivec3 cells;         // of the majorant grid
+    vec3 cellSize;       // voxels
+    float extinction;    // σt at density 1 [1/m]
+    float voxelLength;   // metres: the finest step of a march
+    vec3 radianceScale;  // voxel → texture coordinates of the in-scattered radiance
+    mat3 voxelToShadow;  // voxel → texture coordinates of the shadow volume
+    vec3 shadowOffset;
+    vec3 sunIrradiance;    // that reaches the instance
+    vec3 albedo;
+    vec3 extinctionScale;  // κ = 1 − ω f: optical depth of the truncated medium per true optical depth
+    float scatterShare;    // 1 − f
+    float angleScale;      // axes of the phase tables
+    float tauMaximum;
+    int phaseTable;  // number of its table
+    // Where several instances share atlases: first texels of its volumes there, and how far they reach.
+    vec3 densityOrigin, lightOrigin, shadowOrigin;
+    ivec3 cellOrigin;
+    vec3 lightSize, shadowSize;
+};
+
+/// Reciprocals of the atlases' sizes [1/texels]; unused where there is one instance.
+struct AtlasParams {
+    vec3 density, light, shadow;
+};
+
+/// A copy of a volume into an atlas.
+struct CopyVolumePush {
+    ivec3 size;
+    ivec3 origin;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(InstanceParams) == 296 && offsetof(InstanceParams, shadowSize) == 284);
+static_assert(sizeof(AtlasParams) == 36 && offsetof(AtlasParams, shadow) == 24);
+static_assert(sizeof(CopyVolumePush) == 24 && offsetof(CopyVolumePush, origin) == 12);
+#endif
+
+SHARED_END
+
+#endif

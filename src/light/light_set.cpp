@@ -1,0 +1,14 @@
+#include "light/light_set.h"
+
+#include "medium/fog_media.h"
+
+namespace lumulus::light {
+
+scene::Sun LightSet::sunAt(const glm::dvec3& point, const scene::Fog& fog) const {
+    scene::Sun reaching = sun;
+    if (!fog.media.empty()) reaching.irradiance *= fog::sunTransmittance(fog, point, sun.directionTo);
+    reaching.irradiance *= environment.sunTransmittance(point, sun.directionTo);
+    return reaching;
+}
+
+}  // namespace lumulus::light

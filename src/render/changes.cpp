@@ -1,0 +1,90 @@
+#include "render/changes.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace lumulus {
+
+namespace {
+
+/// The clouds that are meant: one, or all in which there is something.
+std::vector<std::size_t> meant(const World& world, std::optional<std::size_t> cloud) {
+    return cloud ? std::vector<std::size_t>{*cloud} : world.visible();
+}
+
+}  // namespace
+
+std::size_t findInstance(const World& world, std::string_view cloud) {
+    std::string names;
+    for (std::size_t i = 0; i < world.instances.size(); ++i) {
+        if (world.instances[i].name == cloud || std::to_string(i) == cloud) return i;
+        names += (names.empty() ? "" : ", ") + world.instances[i].name;
+    }
+    throw InputError("there is no cloud \"" + std::string(cloud) + "\"", "cloud",
+                     names.empty() ? "the scene has none" : "name one of: " + names);
+}
+
+bool setSun(World& world, const glm::dvec3& directionTo, const glm::dvec3& irradiance) {
+    scene::Sun& sun = world.lights.sun;
+    if (directionTo == sun.directionTo && irradiance == sun.irradiance) return false;
+    if (!world.lights.hasSun() && !world.hasShadows())
+        throw InputError("the scene was made without a sun", "sun.irradiance", "load a scene with one");
+    if (directionTo != sun.directionTo)
+        for (light::InstanceLight& light : world.light) light.shadowReduction = 0;
+    sun.directionTo = directionTo;
+    sun.irradiance = irradiance;
+    for (std::size_t i = 0; i < world.instances.size(); ++i)
+        world.light[i].sun = world.lights.sunAt(world.instances[i].bounds.centre, world.fog);
+    return true;
+}
+
+bool setExtinction(World& world, double extinction, std::optional<std::size_t> cloud) {
+    const std::vector<std::size_t> clouds = meant(world, cloud);
+    if (clouds.empty() || !(extinction > 0.0) || world.instances[clouds.front()].asset == nullptr)
+        throw InputError("an extinction of 0 cannot be changed or reached", "extinction", "load another scene");
+    bool changed = false;
+    for (const std::size_t i : clouds) {
+        cloud::Instance& instance = world.instances[i];
+        light::InstanceLight& light = world.light[i];
+        if (extinction == instance.sceneExtinction) continue;
+        instance.medium.extinction *= extinction / instance.sceneExtinction;
+        instance.sceneExtinction = extinction;
+        if (light.photons) light.photons->setExtinction(instance.medium.extinction);
+        light.changed();
+        light.shadowReduction = 0;
+        changed = true;
+    }
+    return changed;
+}
+
+void setOffset(World& world, const glm::dvec3& offset, std::optional<std::size_t> cloud) {
+    for (const std::size_t i : meant(world, cloud)) world.instances[i].offset = offset;
+}
+
+int shadowReduction(const World& world) {
+    int largest = 1;
+    for (const light::InstanceLight& light : world.light) {
+        if (light.shadow && light.shadowReduction == 0) return 0;
+        if (light.shadow) largest = std::max(largest, light.shadowReduction);
+    }
+    return largest;
+}
+
+bool sharpenShadows(GpuWork& work, World& world, double share) {
+    for (std::size_t i = 0; i < world.light.size(); ++i) {
+        light::InstanceLight& light = world.light[i];
+        if (!light.shadow || light.shadowReduction <= 1) continue;
+        if (!light.sharpening) light.shadow->begin(-light.sun.directionTo, world.instances[i].medium.extinction);
+        light.sharpening = true;
+        work.run([&](gpu::Commands& commands) {
+            if (!light.shadow->recordPart(commands, share)) return;
+            light.shadowReduction = 1;
+            light.sharpening = false;
+        });
+        return shadowReduction(world) == 1;
+    }
+    return true;
+}
+
+}  // namespace lumulus

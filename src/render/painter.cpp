@@ -1,0 +1,238 @@
+#include "render/painter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/light_params.h"
+#include "draw/shown.h"
+#include "frame/background.h"
+#include "frame/view_params.h"
+#include "render/painter_parts.h"
+#include "render/view_light.h"
+
+namespace lumulus {
+
+Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& draw)
+    : tolerance_(draw.tolerance),
+      visible_(world.visible()),
+      phaseTables_(visible_.size()),
+      features_(featuresOf(world)),
+      phase_(makePhaseTables(context, world, features_.grey, phaseTables_)),
+      none_(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT),
+      noSquares_(draw::noSquares(context)) {
+    if (features_.many) {
+        densities_.emplace(context, "density atlas", densitiesOf(world), densityFormat(world));
+        majorants_.emplace(context, "majorant atlas", majorantsOf(world), VK_FORMAT_R32_SFLOAT);
+        GpuWork work{context};
+        work.run([&](gpu::Commands& commands) {
+            densities_->record(commands, densitiesOf(world));
+            majorants_->record(commands, majorantsOf(world));
+        });
+    }
+    if (draw.mode == scene::DrawMode::billboards)
+        billboards_.emplace(context, instancesOf(world), features_);
+    else
+        march_.emplace(context, features_);
+}
+
+int Painter::samplingSpacing(const World& world, const Camera& camera) const {
+    if (tolerance_ <= 0.0) return 1;
+    int spacing = draw::widestSpacing;
+    for (const std::size_t i : visible_) {
+        const cloud::Instance& instance = world.instances[i];
+        const double away = glm::length(instance.middle() - camera.position);
+        const glm::dvec3 farthest = camera.position + (away + 0.5 * instance.diagonal()) * camera.axes[2];
+        spacing = std::min(spacing, draw::samplingSpacing(instance.voxelEdge() / frame::pixelLength(camera, farthest)));
+    }
+    return spacing;
+}
+
+Tile Painter::shownPart(const World& world, const ViewState::State& view) const {
+    Tile shown{view.tile.x, view.tile.y, 0, 0};
+    for (std::size_t place = 0; place < visible_.size(); ++place) {
+        const cloud::Instance& instance = world.instances[visible_[place]];
+        const glm::dmat3& voxel = instance.voxelToMetres;
+        const double half = 0.5 * (glm::length(voxel[0]) + glm::length(voxel[1]) + glm::length(voxel[2]));
+        Camera unmoved = view.camera;  // bounds are those of the cloud without its offset
+        unmoved.position -= instance.offset;
+        shown = unite(shown, draw::shownPart(unmoved, instance.bounds, billboards_ ? billboards_->reach(place) : half,
+                                             view.tile));
+    }
+    return shown;
+}
+
+draw::Volumes Painter::volumes(const World& world, const ViewState::State& view) const {
+    if (features_.many)
+        return {densities_->image(), majorants_->image(), view.lightFields ? view.lightFields->image() : none_,
+                view.shadowVolumes ? view.shadowVolumes->image() : none_};
+    const std::size_t only = visible_.front();
+    const cloud::Asset& asset = *world.instances[only].asset;
+    const auto& field = view.instances[only].field;
+    const auto& shadow = world.light[only].shadow;
+    return {asset.density, asset.marchedCells(), field ? field->image() : none_, shadow ? shadow->image() : none_};
+}
+
+shared::InstanceParams Painter::instanceParams(const World& world, const ViewState::State& view,
+                                               std::size_t place) const {
+    const std::size_t number = visible_[place];
+    const cloud::Instance& instance = world.instances[number];
+    const light::InstanceLight& light = world.light[number];
+    shared::InstanceParams params{};
+    setPlace(params, instance, view.camera);
+    setMedium(params, instance.medium, light.sun, phaseTables_[place]);
+    if (const auto& field = view.instances[number].field) params.radianceScale = field->scale();
+    if (light.shadow) {
+        params.voxelToShadow = light.shadow->voxelToTexture();
+        params.shadowOffset = light.shadow->textureOffset();
+    }
+    if (!features_.many) return params;
+    params.densityOrigin = glm::vec3(densities_->origin(place));
+    params.cellOrigin = majorants_->origin(place);
+    if (view.lightFields) {
+        params.lightOrigin = glm::vec3(view.lightFields->origin(place));
+        const auto& field = view.instances[number].field;
+        params.lightSize = field ? glm::vec3(field->image().extent()) : glm::vec3(1.0F);
+    }
+    if (view.shadowVolumes) {
+        params.shadowOrigin = glm::vec3(view.shadowVolumes->origin(place));
+        params.shadowSize = light.shadow ? glm::vec3(light.shadow->image().extent()) : glm::vec3(1.0F);
+    }
+    return params;
+}
+
+shared::DrawParams Painter::drawParams(const World& world, const ViewState::State& view) const {
+    double finest = 1e300;
+    for (const std::size_t i : visible_) finest = std::min(finest, world.instances[i].voxelEdge());
+    shared::DrawParams values{};
+    values.view = frame::viewParams(view.camera);
+    values.light = draw::lightParams(world.lights.sun);
+    values.environment = world.lights.environment.params();
+    if (features_.many) {
+        values.atlas.density = densities_->inverseSize();
+        if (view.lightFields) values.atlas.light = view.lightFields->inverseSize();
+        if (view.shadowVolumes) values.atlas.shadow = view.shadowVolumes->inverseSize();
+    }
+    values.sampling = draw::samplingGridOf(view.camera, view.shown, view.spacing, tolerance_,
+                                           static_cast<double>(static_cast<float>(finest)));
+    values.instances = static_cast<int>(visible_.size());
+    values.samples = view.raysAcross;
+    values.tilesAcross = view.billboards ? view.billboards->tilesAcross() : 0;
+    return values;
+}
+
+/// Light fields and shadow volumes of all instances in one image each.
+void Painter::fillAtlases(GpuWork& work, const World& world, ViewState::State& view) const {
+    std::vector<const gpu::Image*> fields, shadows;
+    for (const std::size_t i : visible_) {
+        const auto& field = view.instances[i].field;
+        const auto& shadow = world.light[i].shadow;
+        fields.push_back(field ? &field->image() : &none_);
+        shadows.push_back(shadow ? &shadow->image() : &none_);
+    }
+    const auto fit = [&](std::optional<cloud::Atlas>& atlas, const char* name, const auto& images, VkFormat format) {
+        if (atlas && atlas->holds(images)) return;
+        atlas.reset();
+        atlas.emplace(work.context, name, images, format);
+    };
+    if (features_.photons) fit(view.lightFields, "light field atlas", fields, VK_FORMAT_R32G32B32A32_SFLOAT);
+    if (features_.sun) fit(view.shadowVolumes, "shadow volume atlas", shadows, VK_FORMAT_R16_SFLOAT);
+    if (!view.lightFields && !view.shadowVolumes) return;
+    work.run([&](gpu::Commands& commands) {
+        if (view.lightFields) view.lightFields->record(commands, fields);
+        if (view.shadowVolumes) view.shadowVolumes->record(commands, shadows);
+    });
+}
+
+void Painter::prepare(GpuWork& work, const World& world, ViewState::State& view) const {
+    if (features_.many) fillAtlases(work, world, view);
+    view.billboards.reset();
+    if (billboards_) view.billboards.emplace(work.context, *billboards_, view.camera);
+}
+
+void Painter::recordPixels(gpu::Commands& commands, const draw::DrawInputs& inputs, const ViewState::State& view,
+                           const shared::DrawPush& push) const {
+    if (billboards_)
+        billboards_->record(commands, inputs, *view.billboards, push);
+    else
+        march_->record(commands, inputs, push);
+}
+
+/// The points of sparse sampling that are not drawn yet, what can be interpolated between them, and the rest.
+void Painter::recordBlocks(gpu::Commands& commands, const draw::DrawInputs& inputs, ViewState::State& view,
+                           const shared::SamplingGrid& sampling, const draw::Band& band, const Tile& pixels) const {
+    draw::Interpolation& interpolation = view.interpolations.at(view.spacing);
+    const auto into = [&](const gpu::Buffer& target, const gpu::Buffer& list) {
+        return draw::DrawInputs{inputs.params, inputs.instances, inputs.phase, inputs.volumes, target, list};
+    };
+    const draw::Band needed = draw::samplingRows(sampling, view.shown, band);
+    const int first = std::max(needed.first, view.sampledRowsDrawn), end = needed.first + needed.rows;
+    if (end > first) {
+        recordPixels(commands, into(interpolation.points(), inputs.squares), view,
+                     {shared::DRAW_SPARSE, sampling.first + glm::ivec2(0, first), {sampling.size.x, end - first}});
+        commands.barrier("sample points");
+        view.sampledRowsDrawn = end;
+    }
+    interpolation.record(commands, inputs, pixels);
+    commands.barrier("blocks");
+    if (draw::hasRefinement(view.spacing)) {
+        recordPixels(commands, into(interpolation.refined(), interpolation.blocks()), view,
+                     interpolation.refinedPoints(pixels));
+        commands.barrier("refined points");
+        interpolation.recordRefined(commands, inputs, pixels);
+        commands.barrier("cells");
+    }
+    recordPixels(commands, into(inputs.pixels, interpolation.lastList()), view, interpolation.squares(pixels));
+}
+
+void Painter::paintBand(GpuWork& work, const draw::DrawInputs& inputs, ViewState::State& view,
+                        const shared::SamplingGrid& sampling, const draw::Band& band, LayeredImage* image) const {
+    const Tile& shown = view.shown;
+    const Tile pixels{shown.x, shown.y + band.first, shown.width, band.rows};
+    const Tile place{pixels.x - view.tile.x, pixels.y - view.tile.y, pixels.width, pixels.height};
+    if (sampling.spacing > 1) view.interpolations.at(view.spacing).clearLists();
+    work.run([&](gpu::Commands& commands) {
+        if (sampling.spacing > 1)
+            recordBlocks(commands, inputs, view, sampling, band, pixels);
+        else
+            recordPixels(commands, inputs, view,
+                         {shared::DRAW_PIXELS, {pixels.x, pixels.y}, {pixels.width, pixels.height}});
+        if (image != nullptr) return;
+        commands.barrier("pixels");
+        view.frame->recordBand(commands, inputs.pixels, place);
+    });
+    if (image == nullptr) return;
+    frame::copyPixels(inputs.pixels.mapped<const shared::Pixel>(), *image, place);
+    work.context.addDownloaded(static_cast<std::uint64_t>(place.width) * static_cast<std::uint64_t>(place.height) *
+                               sizeof(shared::Pixel));
+}
+
+void Painter::paint(GpuWork& work, const World& world, ViewState::State& view, const std::vector<draw::Band>& bands,
+                    LayeredImage* image, const Check& check, const Report& report) const {
+    gpu::Context& context = work.context;
+    const int rows = draw::bandRows(view.shown);
+    const auto most = static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(view.shown.width);
+    const gpu::Buffer pixels = image == nullptr
+                                   ? draw::pixelBuffer(context, "pixels", most)
+                                   : gpu::Buffer(context, "pixels", most * sizeof(shared::Pixel), gpu::Memory::host);
+    gpu::Buffer params(context, "draw params", sizeof(shared::DrawParams), gpu::Memory::host);
+    gpu::Buffer instances(context, "instances", visible_.size() * sizeof(shared::InstanceParams), gpu::Memory::host);
+    const shared::DrawParams values = drawParams(world, view);
+    params.mapped<shared::DrawParams>()[0] = values;
+    for (std::size_t place = 0; place < visible_.size(); ++place)
+        instances.mapped<shared::InstanceParams>()[place] = instanceParams(world, view, place);
+    if (view.spacing > 1) {
+        auto& interpolation = view.interpolations.try_emplace(view.spacing, context, view.spacing).first->second;
+        interpolation.prepare(values.sampling, rows);
+        view.sampledRowsDrawn = 0;
+    }
+    const draw::Volumes bound = volumes(world, view);
+    const draw::DrawInputs inputs{params, instances, phase_, bound, pixels, noSquares_};
+    report("drawing", 0, bands.size());
+    for (std::size_t done = 0; done < bands.size(); ++done) {
+        check();
+        paintBand(work, inputs, view, values.sampling, bands[done], image);
+        report("drawing", done + 1, bands.size());
+    }
+}
+
+}  // namespace lumulus

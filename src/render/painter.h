@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cloud/atlas.h"
+#include "draw/bands.h"
+#include "draw/billboards.h"
+#include "draw/drawing.h"
+#include "draw/march.h"
+#include "render/gpu_work.h"
+#include "render/view_state.h"
+#include "render/world.h"
+#include "scene/scene.h"
+
+namespace lumulus {
+
+/// Draws the clouds of a world: the programs of the scene's way to draw, and what they bind that no view changes.
+class Painter {
+  public:
+    /// Errors: InputError where the device cannot hold the volumes of all clouds in one image.
+    Painter(gpu::Context& context, const World& world, const scene::Draw& draw);
+
+    /// Spacing in pixels of the points of sparse sampling for a view, chosen so that the farthest voxels still cover it.
+    int samplingSpacing(const World& world, const Camera& camera) const;
+    /// The part of the view's tile in which clouds may be seen. Voxels reach half a voxel farther than their bounds,
+    /// billboards as far as the largest.
+    Tile shownPart(const World& world, const ViewState::State& view) const;
+
+    /// Sorts and uploads what the camera of the view needs, after lightView() and before paint().
+    void prepare(GpuWork& work, const World& world, ViewState::State& view) const;
+    /// Draws bands of rows of the shown part into `image`, or into the view's frame where `image` is null.
+    void paint(GpuWork& work, const World& world, ViewState::State& view, const std::vector<draw::Band>& bands,
+               LayeredImage* image, const Check& check, const Report& report) const;
+
+  private:
+    /// What one picture's passes bind.
+    struct Picture;
+
+    draw::Volumes volumes(const World& world, const ViewState::State& view) const;
+    shared::InstanceParams instanceParams(const World& world, const ViewState::State& view, std::size_t place) const;
+    shared::DrawParams drawParams(const World& world, const ViewState::State& view) const;
+    void fillAtlases(GpuWork& work, const World& world, ViewState::State& view) const;
+    void recordPixels(gpu::Commands& commands, const draw::DrawInputs& inputs, const ViewState::State& view,
+                      const shared::DrawPush& push) const;
+    void recordBlocks(gpu::Commands& commands, const draw::DrawInputs& inputs, ViewState::State& view,
+                      const shared::SamplingGrid& sampling, const draw::Band& band, const Tile& pixels) const;
+    void paintBand(GpuWork& work, const draw::DrawInputs& inputs, ViewState::State& view,
+                   const shared::SamplingGrid& sampling, const draw::Band& band, LayeredImage* image) const;
+
+    double tolerance_;
+    std::vector<std::size_t> visible_;  ///< numbers of the instances that are drawn, in the order of the GPU's list
+    std::vector<int> phaseTables_;      ///< of each of them
+    draw::DrawFeatures features_;
+    draw::PhaseTables phase_;
+    std::optional<draw::Billboards> billboards_;
+    std::optional<draw::March> march_;
+    std::optional<cloud::Atlas> densities_, majorants_;  ///< where several instances are drawn
+    gpu::Image none_;  ///< stands for what the scene does not have: shaders never read it, but bindings must be there
+    gpu::Buffer noSquares_;
+};
+
+}  // namespace lumulus

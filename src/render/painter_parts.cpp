@@ -1,0 +1,90 @@
+#include "render/painter_parts.h"
+
+#include <algorithm>
+
+namespace lumulus {
+
+draw::DrawFeatures featuresOf(const World& world) {
+    draw::DrawFeatures features;
+    const std::vector<const cloud::Instance*> instances = instancesOf(world);
+    features.forwardCut =
+        std::ranges::any_of(instances, [](const auto* i) { return !i->medium.tables.singleScatterH.empty(); });
+    features.grey = std::ranges::all_of(instances, [](const auto* i) { return i->medium.isGrey(); });
+    features.sun = world.hasShadows();
+    features.photons = world.hasPhotons();
+    features.many = instances.size() > 1;
+    return features;
+}
+
+std::vector<const cloud::Instance*> instancesOf(const World& world) {
+    std::vector<const cloud::Instance*> instances;
+    for (const std::size_t i : world.visible()) instances.push_back(&world.instances[i]);
+    return instances;
+}
+
+std::vector<const gpu::Image*> densitiesOf(const World& world) {
+    std::vector<const gpu::Image*> images;
+    for (const cloud::Instance* instance : instancesOf(world)) images.push_back(&instance->asset->density);
+    return images;
+}
+
+std::vector<const gpu::Image*> majorantsOf(const World& world) {
+    std::vector<const gpu::Image*> images;
+    for (const cloud::Instance* instance : instancesOf(world)) images.push_back(&instance->asset->marchedCells());
+    return images;
+}
+
+VkFormat densityFormat(const World& world) {
+    const std::vector<const gpu::Image*> images = densitiesOf(world);
+    const VkFormat first = images.front()->format();
+    return std::ranges::all_of(images, [&](const gpu::Image* image) { return image->format() == first; })
+               ? first
+               : VK_FORMAT_R32_SFLOAT;
+}
+
+draw::PhaseTables makePhaseTables(gpu::Context& context, const World& world, bool grey, std::span<int> numbers) {
+    const std::vector<const cloud::Instance*> instances = instancesOf(world);
+    std::vector<const phase::ScatteringTables*> media;
+    for (std::size_t place = 0; place < instances.size(); ++place) {
+        const phase::ScatteringTables& tables = instances[place]->medium.tables;
+        const auto same = std::ranges::find_if(media, [&](const phase::ScatteringTables* other) {
+            return other->phaseTable == tables.phaseTable && other->singleScatterH == tables.singleScatterH &&
+                   other->singleScatterK == tables.singleScatterK;
+        });
+        numbers[place] = static_cast<int>(same - media.begin());
+        if (same == media.end()) media.push_back(&tables);
+    }
+    return {context, media, grey};
+}
+
+void setPlace(shared::InstanceParams& params, const cloud::Instance& instance, const Camera& camera) {
+    const cloud::Asset& asset = *instance.asset;
+    params.worldToVoxel = glm::mat3(glm::inverse(instance.voxelToMetres));
+    params.eyeVoxel = glm::vec3(instance.toVoxel(camera.position));
+    params.size = glm::vec3(asset.size);
+    params.cells = asset.cells.cells;
+    params.cellSize = asset.cells.cellSize;
+    params.voxelLength = static_cast<float>(instance.voxelEdge());
+}
+
+void setMedium(shared::InstanceParams& params, const phase::ScatteringMedium& medium, const scene::Sun& sun,
+               int phaseTable) {
+    const phase::ScatteringTables& tables = medium.tables;
+    params.extinction = static_cast<float>(medium.extinction);
+    params.sunIrradiance = glm::vec3(sun.irradiance);
+    params.albedo = glm::vec3(medium.albedo);
+    params.extinctionScale = glm::vec3(1.0 - static_cast<double>(tables.forwardFraction) * medium.albedo);
+    params.scatterShare = tables.scatterFraction;
+    params.angleScale = tables.angleScale;
+    params.tauMaximum = tables.tauMaximum;
+    params.phaseTable = phaseTable;
+}
+
+Tile unite(const Tile& a, const Tile& b) {
+    if (a.width <= 0 || a.height <= 0) return b;
+    if (b.width <= 0 || b.height <= 0) return a;
+    const int x = std::min(a.x, b.x), y = std::min(a.y, b.y);
+    return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
+}
+
+}  // namespace lumulus

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "draw/drawing.h"
+#include "render/world.h"
+#include "view/camera.h"
+#include "view/view.h"
+
+/// What a painter's passes need to know of the visible instances of a world, in their order.
+namespace lumulus {
+
+draw::DrawFeatures featuresOf(const World& world);
+std::vector<const cloud::Instance*> instancesOf(const World& world);
+std::vector<const gpu::Image*> densitiesOf(const World& world);
+std::vector<const gpu::Image*> majorantsOf(const World& world);
+/// A format that holds every instance's density without loss.
+VkFormat densityFormat(const World& world);
+
+/// Phase functions of all visible instances. Equal ones share tables: `numbers` becomes the number of each one's.
+draw::PhaseTables makePhaseTables(gpu::Context& context, const World& world, bool grey, std::span<int> numbers);
+
+void setPlace(shared::InstanceParams& params, const cloud::Instance& instance, const Camera& camera);
+/// `sun` as it reaches the instance; `phaseTable` as makePhaseTables() numbers it.
+void setMedium(shared::InstanceParams& params, const phase::ScatteringMedium& medium, const scene::Sun& sun,
+               int phaseTable);
+
+/// The smallest tile that holds both. An empty one adds nothing.
+Tile unite(const Tile& a, const Tile& b);
+
+}  // namespace lumulus

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "fog/screen/fog.h"
+#include "render/painter.h"
+#include "render/renderer.h"
+
+namespace lumulus {
+
+/// The order of the passes of one picture. Its parts live elsewhere.
+struct PictureOrder {
+    GpuWork& work;
+    World& world;
+    const Painter* painter;  ///< null: there is nothing to draw
+    fog::Fog* fog;           ///< null: there is no fog
+    int bands;               ///< of the photon map
+    int shadowReduction;     ///< that shadow volumes may have
+    const Check& check;
+    const Report& report;
+
+    /// The picture of a view that the state shows.
+    LayeredImage picture(ViewState::State& state, const View& view);
+    /// Some rows by the even and by the odd generations.
+    Preview preview(ViewState::State& state);
+
+  private:
+    void drawBackground(ViewState::State& state);
+    LayeredImage throughFog(ViewState::State& state, const Tile& wanted);
+    void drawLight(ViewState::State& state, photon::Part part);
+};
+
+/// A picture of another renderer through fog; see Renderer::throughFog.
+LayeredImage seenThroughFog(fog::Fog& fog, const scene::Fog& media, const Camera& camera, LayeredImage picture,
+                            std::vector<float> depth);
+
+}  // namespace lumulus

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/interrupt.h"
+#include "base/progress.h"
+#include "cloud/instance.h"
+#include "light/instance_light.h"
+#include "light/light_set.h"
+#include "scene/scene.h"
+
+namespace lumulus {
+
+/// Everything that scatters, emits or blocks: one owner for each value that can change while a renderer lives.
+struct World {
+    scene::Fog fog;
+    light::LightSet lights;
+    std::vector<std::unique_ptr<cloud::Asset>> assets;  ///< each shared by the instances that show it
+    std::vector<cloud::Instance> instances;             ///< one for each cloud of the scene, in its order
+    std::vector<light::InstanceLight> light;            ///< of each instance
+    Bounds bounds;                                      ///< of all instances, without their offsets
+    glm::dvec3 wind{0.0};                               ///< velocity with which all instances drift [m/s]
+
+    /// Numbers of the instances in which there is something.
+    std::vector<std::size_t> visible() const;
+    bool hasPhotons() const;
+    bool hasShadows() const;
+};
+
+/// What making a world tells of itself.
+struct WorldReport {
+    double loadSeconds = 0.0, prepareSeconds = 0.0;
+    std::vector<std::string> warnings;
+};
+
+struct WorldOptions {
+    bool keepRing = false;
+    bool progressive = false;
+    Report report = noReport;
+    Check check = stopIfInterrupted;
+};
+
+/// Loads and prepares the clouds of a scene. Errors: InputError for what is wrong with the scene, Error where
+/// interrupted or out of memory.
+World makeWorld(gpu::Context& context, const scene::Scene& scene, const WorldOptions& options, WorldReport& report);
+
+}  // namespace lumulus
