@@ -11,8 +11,8 @@ struct EnvironmentParams {
     vec3 radiance;  // W/(m² sr) per channel
 };
 
-/// Radiance that arrives from a direction; `direction` is a unit vector away from the observer.
-SHARED_FN vec3 environmentRadiance(EnvironmentParams environment, vec3 direction) {
+/// Radiance that arrives from a direction, a unit vector away from the observer: from all the same.
+SHARED_FN vec3 environmentRadiance(EnvironmentParams environment, vec3 /*direction*/) {
     return environment.radiance;
 }
 

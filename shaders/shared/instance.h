@@ -43,7 +43,7 @@ struct CopyVolumePush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(InstanceParams) == 296 && offsetof(InstanceParams, shadowSize) == 284);
+static_assert(sizeof(InstanceParams) == 276 && offsetof(InstanceParams, shadowSize) == 264);
 static_assert(sizeof(AtlasParams) == 36 && offsetof(AtlasParams, shadow) == 24);
 static_assert(sizeof(CopyVolumePush) == 24 && offsetof(CopyVolumePush, origin) == 12);
 #endif

@@ -9,8 +9,10 @@ namespace lumulus {
 
 /// Where passes are recorded and run, one submission after the other, with the times that they took.
 struct GpuWork {
+    explicit GpuWork(gpu::Context& gpuContext) : context(gpuContext), commands(gpuContext) {}
+
     gpu::Context& context;
-    gpu::Commands commands{context};
+    gpu::Commands commands;
     std::vector<gpu::PassTime> times;  ///< of all passes since they were last cleared, by name
 
     /// Records by `record`, runs, waits and adds the times.

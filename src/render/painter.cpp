@@ -23,7 +23,7 @@ Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& d
     if (features_.many) {
         densities_.emplace(context, "density atlas", densitiesOf(world), densityFormat(world));
         majorants_.emplace(context, "majorant atlas", majorantsOf(world), VK_FORMAT_R32_SFLOAT);
-        GpuWork work{context};
+        GpuWork work(context);
         work.run([&](gpu::Commands& commands) {
             densities_->record(commands, densitiesOf(world));
             majorants_->record(commands, majorantsOf(world));

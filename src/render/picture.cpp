@@ -62,8 +62,8 @@ Preview PictureOrder::preview(ViewState::State& state) {
     const int spacing = state.spacing;
     state.spacing = 1;
     state.shown = state.tile;
-    const std::vector<draw::Band> bands = draw::sampleBands(state.tile);
-    for (const draw::Band& band : bands)
+    const std::vector<draw::Band> rows = draw::sampleBands(state.tile);
+    for (const draw::Band& band : rows)
         for (int row = 0; row < band.rows; ++row) preview.rows.push_back(band.first + row);
     for (light::InstanceLight& light : world.light) {
         light.changed();
@@ -78,7 +78,7 @@ Preview PictureOrder::preview(ViewState::State& state) {
         drawLight(state, part);
         const double whole = watch.seconds();
         work.times.clear();
-        painter->paint(work, world, state, bands, &image, check, noReport);
+        painter->paint(work, world, state, rows, &image, check, noReport);
         double milliseconds = 0.0;
         for (const gpu::PassTime& pass : work.times) milliseconds += pass.milliseconds;
         // the first of the two also pays for what is made once

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "light/photon/emission.h"
 #include "view/camera.h"
 #include "volume/load.h"
 

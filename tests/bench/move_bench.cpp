@@ -48,13 +48,13 @@ class Mover {
   public:
     Mover(scene::Scene scene, scene::DrawMode mode) : renderer_(withMode(std::move(scene), mode), {}) {
         for (int i = 0; i < renderer_.generationsWanted(); ++i) renderer_.traceGeneration();
-        renderer_.draw();
+        renderer_.draw(renderer_.sceneView(), viewer_);
     }
 
     void move() {
         const View view = turned(renderer_, degreesAMove * static_cast<double>(seconds_.size() + 1));
         const Stopwatch watch;
-        renderer_.draw(view);
+        renderer_.draw(view, viewer_);
         seconds_.push_back(watch.seconds());
     }
 
@@ -74,6 +74,7 @@ class Mover {
     }
 
     Renderer renderer_;
+    ViewState viewer_;  // gives back what it holds before the renderer does
     std::vector<double> seconds_;
 };
 

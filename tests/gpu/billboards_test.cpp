@@ -29,7 +29,22 @@ std::size_t collectorOf(const Billboard& billboard) {
 
 class MakeBillboards : public test::VulkanTest {
   protected:
-    cloud::Asset cloud = cloud::prepare(context, test::cloudCases()[2].volume, test::prepareOptions(1000));
+    vdb::Volume volume = test::cloudCases()[2].volume;
+    cloud::Asset cloud = cloud::prepare(context, volume, test::prepareOptions(1000));
+    cloud::Instance instance = placed(volume.toWorld);
+
+    cloud::Instance placed(const vdb::Affine& place) {
+        cloud::Instance result;
+        result.asset = &cloud;
+        result.voxelToMetres = place.linear;
+        result.origin = place.translation;
+        return result;
+    }
+    std::vector<Billboard> billboardsOf(const Camera& camera) {
+        const cloud::Instance* instances[] = {&instance};
+        const std::vector<float> shares[] = {numbers(cloud.collectors.size())};
+        return makeBillboards(instances, shares, camera);
+    }
 
     static Camera cameraAt(const dvec3& position, scene::Projection projection) {
         scene::Camera camera;
@@ -42,8 +57,7 @@ class MakeBillboards : public test::VulkanTest {
 
 TEST_F(MakeBillboards, StandWhereTheirLeavesHaveDensity) {
     const dvec3 eye(10.0, 20.0, 200.0);
-    const auto billboards =
-        makeBillboards(cloud, numbers(cloud.collectors.size()), cameraAt(eye, scene::Projection::perspective));
+    const auto billboards = billboardsOf(cameraAt(eye, scene::Projection::perspective));
     ASSERT_EQ(billboards.size(), cloud.collectors.size());
     for (const Billboard& b : billboards) {
         const cloud::Collector& collector = cloud.collectors[collectorOf(b)];
@@ -51,7 +65,7 @@ TEST_F(MakeBillboards, StandWhereTheirLeavesHaveDensity) {
         const double filled = std::max(collector.occupiedVoxels(), static_cast<double>(collector.mass));
         const double volume = static_cast<double>(shared::BILLBOARD_OVERLAP) * filled * cloud.voxelVolume;
         ASSERT_NEAR(sphere, volume, 1e-5 * volume);
-        const dvec3 place = cloud.toWorld.point(dvec3(collector.centre)) - eye;
+        const dvec3 place = instance.toWorld(dvec3(collector.centre)) - eye;
         ASSERT_LT(glm::distance(dvec3(b.centre), place), 1e-4);
     }
 }
@@ -61,10 +75,10 @@ TEST_F(MakeBillboards, AreSortedForTheProjection) {
     for (const auto projection :
          {scene::Projection::perspective, scene::Projection::orthographic, scene::Projection::panorama}) {
         const Camera camera = cameraAt({30.0, 30.0, 30.0}, projection);  // inside
-        const auto billboards = makeBillboards(cloud, numbers(cloud.collectors.size()), camera);
+        const auto billboards = billboardsOf(camera);
         double last = -1e300;
         for (const Billboard& b : billboards) {
-            const dvec3 centre = cloud.toWorld.point(dvec3(cloud.collectors[collectorOf(b)].centre)) - camera.position;
+            const dvec3 centre = instance.toWorld(dvec3(cloud.collectors[collectorOf(b)].centre)) - camera.position;
             const double order =
                 projection == scene::Projection::orthographic ? glm::dot(centre, camera.axes[2]) : glm::length(centre);
             ASSERT_GE(order, last - 1e-9);
@@ -73,9 +87,28 @@ TEST_F(MakeBillboards, AreSortedForTheProjection) {
     }
 }
 
+/// Billboards of two instances of one asset are in one order, and each knows whose it is.
+TEST_F(MakeBillboards, OfTwoInstancesAreSortedTogether) {
+    cloud::Instance other = instance;
+    other.offset = {5.0, 0.0, -3.0};
+    const cloud::Instance* instances[] = {&instance, &other};
+    const std::vector<float> each = numbers(cloud.collectors.size()), shares[] = {each, each};
+    const Camera camera = cameraAt({10.0, 20.0, 200.0}, scene::Projection::perspective);
+    const auto billboards = makeBillboards(instances, shares, camera);
+    ASSERT_EQ(billboards.size(), 2 * cloud.collectors.size());
+    double last = 0.0;
+    for (const Billboard& b : billboards) {
+        const cloud::Instance& whose = b.instance == 0.0F ? instance : other;
+        const dvec3 place = whose.toWorld(dvec3(cloud.collectors[collectorOf(b)].centre)) - camera.position;
+        ASSERT_LT(glm::distance(dvec3(b.centre), place), 1e-4);
+        ASSERT_GE(glm::length(place), last - 1e-9);
+        last = glm::length(place);
+    }
+}
+
 TEST_F(MakeBillboards, TiesAreBrokenByIndex) {
     const dvec3 eye(1.0, 2.0, 3.0);
-    cloud.toWorld = {glm::dmat3(1.0), dvec3(0.0)};
+    instance = placed({});
     const cloud::Collector some = cloud.collectors[0];
     cloud.collectors.assign(600, some);
     // mirror images of one place about the eye, at three distances, in no order of distance
@@ -84,7 +117,7 @@ TEST_F(MakeBillboards, TiesAreBrokenByIndex) {
         const dvec3 sign(i & 1U ? 1 : -1, i & 2U ? 1 : -1, i & 4U ? 1 : -1);
         cloud.collectors[i].centre = glm::vec3(eye + distance * sign);
     }
-    const auto billboards = makeBillboards(cloud, numbers(600), cameraAt(eye, scene::Projection::perspective));
+    const auto billboards = billboardsOf(cameraAt(eye, scene::Projection::perspective));
     ASSERT_EQ(billboards.size(), 600U);
     for (std::size_t i = 1; i < billboards.size(); ++i) {
         if (i % 200 == 0) continue;  // the next distance

@@ -118,11 +118,12 @@ class LightFieldTest : public test::VulkanTest, public testing::WithParamInterfa
         gpu::upload(context, estimates, counts);
         const gpu::Image fluences = collectorImage(dvec4(0.0, 0.0, 0.0, fluence), cloud.collectors.size());
         const gpu::Image towardsEye = collectorImage(radiance, cloud.collectors.size());
-        const LightField field(context, cloud, cells, cells);
+        const LightCells lit(context, cloud, cells, cells);
+        const LightField field(context, cells);
         gpu::Commands commands(context);
         commands.begin();
-        field.recordCounts(commands, fluences, {estimates, 0, photon, photon, massScale, 0.0});
-        field.record(commands, glm::vec3(-50.0F, 20.0F, 10.0F), towardsEye);
+        lit.recordCounts(commands, fluences, {estimates, 0, photon, photon, massScale, 0.0});
+        field.record(commands, lit, glm::vec3(-50.0F, 20.0F, 10.0F), towardsEye);
         commands.submit();
         commands.wait();
         Grid<glm::vec4> result(cells.cells);
@@ -158,7 +159,8 @@ TEST_F(LongCloud, HasRoomForTheRing) {
     const cloud::Asset cloud = cloud::prepare(context, volume, test::prepareOptions(50));
     const cloud::CellGrid cells = lightGrid(cloud, 1'000'000'000);
     EXPECT_EQ(cells.edge, 2);
-    const LightField field(context, cloud, cells, cells);
+    const LightCells lit(context, cloud, cells, cells);
+    const LightField field(context, cells);
     EXPECT_EQ(field.image().extent(), ivec3(1024, 2, 2));
 }
 

@@ -112,12 +112,16 @@ TEST(SharedLayout, Photon) {
 
 TEST(SharedLayout, Draw) {
     EXPECT_LAYOUT(billboards_comp, ViewParams, right, up, forward, halfExtent, size, projection);
-    EXPECT_LAYOUT(billboards_comp, LightParams, sunTravel, sunIrradiance, sunDisc, sunCone, skyRadiance, albedo,
-                  extinctionScale, scatterShare, angleScale, tauMaximum);
-    EXPECT_LAYOUT(billboards_comp, FieldParams, worldToVoxel, eyeVoxel, size, cells, cellSize, extinction, voxelLength,
-                  radianceScale, voxelToShadow, shadowOffset);
+    EXPECT_LAYOUT(billboards_comp, LightParams, sunTravel, sunDisc, sunCone);
+    EXPECT_LAYOUT(billboards_comp, EnvironmentParams, radiance);
+    EXPECT_LAYOUT(billboards_comp, AtlasParams, density, light, shadow);
+    EXPECT_LAYOUT(billboards_comp, InstanceParams, worldToVoxel, eyeVoxel, size, cells, cellSize, extinction,
+                  voxelLength, radianceScale, voxelToShadow, shadowOffset, sunIrradiance, albedo, extinctionScale,
+                  scatterShare, angleScale, tauMaximum, phaseTable, densityOrigin, lightOrigin, shadowOrigin,
+                  cellOrigin, lightSize, shadowSize);
     EXPECT_LAYOUT(billboards_comp, SamplingGrid, first, size, spacing, tolerance, depthTolerance);
-    EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, field, sampling, tilesAcross, samples);
+    EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, environment, atlas, sampling, instances, tilesAcross,
+                  samples);
     EXPECT_PUSH(billboards_comp, DrawPush, what, first, count);
     EXPECT_PUSH(interpolate_comp, InterpolatePush, first, count, firstBlock, blocks);
     EXPECT_LAYOUT(billboards_comp, Pixel, cloud, transmittance, alpha, depth, front, radiance, unused);

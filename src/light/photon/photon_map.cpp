@@ -242,6 +242,7 @@ PhotonMap::PhotonMap(gpu::Context& context, const cloud::Asset& cloud, const Med
     s.commands.wait();
 }
 
+PhotonMap::PhotonMap(PhotonMap&&) noexcept = default;
 PhotonMap::~PhotonMap() = default;
 
 void PhotonMap::trace(const scene::Sun& sun, const sky::Environment& environment) {

@@ -63,6 +63,7 @@ class PhotonMap {
     /// `cloud` must outlive the map. Errors: InputError where the coefficients do not fit into the budget, or those of
     /// one generation into a buffer of the device.
     PhotonMap(gpu::Context& context, const cloud::Asset& cloud, const Medium& medium, const Options& options);
+    PhotonMap(PhotonMap&&) noexcept;
     ~PhotonMap();
 
     /// Traces one generation into the oldest slot. Power of the lights: W·m⁻² (sun), W·m⁻²·sr⁻¹ (environment).
