@@ -7,12 +7,18 @@ from PIL import Image
 from study.program import Failure
 
 
+def opened(path):
+    """The file, to be read. Raises Failure where it is no picture."""
+    file = OpenImageIO.ImageInput.open(str(path))
+    if file is None:
+        raise Failure(f"{path} is not an EXR file: {(OpenImageIO.geterror().splitlines() or ['it cannot be read'])[0]}")
+    return file
+
+
 def read_exr(path):
     """Layers of an EXR file by name, each an array [height, width] of 32-bit floats with the rows from the top. Half
     floats are widened, which loses nothing. Raises Failure where the file cannot be read."""
-    file = OpenImageIO.ImageInput.open(str(path))
-    if file is None:
-        raise Failure(f"{path} is not an EXR file: {OpenImageIO.geterror().splitlines()[0]}")
+    file = opened(path)
     try:
         names = file.spec().channelnames
         pixels = file.read_image(0, 0, 0, len(names), OpenImageIO.FLOAT)
@@ -25,19 +31,10 @@ def read_exr(path):
 
 def read_attributes(path):
     """The attributes of an EXR file that are texts, by name."""
-    file = OpenImageIO.ImageInput.open(str(path))
-    if file is None:
-        raise Failure(f"{path} is not an EXR file: {OpenImageIO.geterror().splitlines()[0]}")
+    file = opened(path)
     found = {one.name: one.value for one in file.spec().extra_attribs if isinstance(one.value, str)}
     file.close()
     return found
-
-
-def layer(layers, name, path):
-    """One of the layers, or a Failure that names what is missing."""
-    if name not in layers:
-        raise Failure(f"{path} has no layer {name}")
-    return layers[name]
 
 
 def rgb(layers):
@@ -59,6 +56,18 @@ def write_exr(path, layers):
     file.close()
 
 
-def write_png(path, intensity):
-    """Writes display intensities [height, width, 3] from 0 to 1."""
-    Image.fromarray((255.0 * numpy.clip(intensity, 0.0, 1.0) + 0.5).astype(numpy.uint8)).save(path, optimize=True)
+def as_image(intensity):
+    """A Pillow image of display intensities [height, width, 3] from 0 to 1."""
+    return Image.fromarray((255.0 * numpy.clip(intensity, 0.0, 1.0) + 0.5).astype(numpy.uint8))
+
+
+def srgb(intensity):
+    """Linear intensities from 0 to 1 as a screen is given them (IEC 61966-2-1)."""
+    return numpy.where(intensity <= 0.0031308, 12.92 * intensity, 1.055 * intensity ** (1.0 / 2.4) - 0.055)
+
+
+def tone_mapped(radiance, exposure):
+    """Display intensities of radiance [height, width, 3] after some stops of exposure, as base/tonemap.cpp has them
+    (Narkowicz 2015, sRGB), without its dither, which would not compress."""
+    x = numpy.clip(radiance.astype(float) * 2.0**exposure, 0.0, 1e6)
+    return srgb(numpy.minimum(1.0, x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)))

@@ -1,9 +1,10 @@
-"""How the studies call lumulus and other programs: the one place where a process is started."""
+"""How the studies call programs: the one place where a process is started."""
 
 import os
 import pathlib
-import resource
 import subprocess
+import tempfile
+import threading
 import time
 from dataclasses import dataclass
 
@@ -28,33 +29,35 @@ class Finished:
 
 
 def finished(*words, limit=None, environment=None):
-    """Runs a program with these words to its end. Raises Failure where it cannot be started or takes more than `limit`
-    seconds."""
-    command = [str(word) for word in words]
-    start = time.monotonic()
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    try:
-        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                   env={**os.environ, **(environment or {})})
-        said, complaint = process.communicate(timeout=limit)
-    except OSError as error:
-        raise Failure(f"{command[0]}: {error.strerror}; run scripts/build.sh first") from None
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.communicate()
-        raise Failure(f"not done after {limit:g} s") from None
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return Finished(process.returncode, said, complaint, time.monotonic() - start, after.ru_utime - before.ru_utime,
-                    after.ru_maxrss * 1024)
+    """Runs a program with these words to its end, with more environment variables where some are given. Raises Failure
+    where it cannot be started or takes more than `limit` seconds."""
+    with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as complaint:
+        start = time.monotonic()
+        try:
+            process = subprocess.Popen([str(word) for word in words], stdout=output, stderr=complaint,
+                                       env={**os.environ, **(environment or {})})
+        except OSError as error:
+            raise Failure(f"{words[0]}: {error.strerror}; run scripts/build.sh first") from None
+        late = threading.Event()
+        timer = threading.Timer(limit or threading.TIMEOUT_MAX, lambda: (late.set(), os.kill(process.pid, 9)))
+        timer.daemon = True
+        timer.start()
+        _, status, used = os.wait4(process.pid, 0)  # unlike Popen.wait, it says what the process used
+        timer.cancel()
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if late.is_set():
+            raise Failure(f"not done after {limit:g} s")
+        seconds = time.monotonic() - start
+        texts = [file.seek(0) or file.read() for file in (output, complaint)]
+        return Finished(process.returncode, *texts, seconds, used.ru_utime, used.ru_maxrss * 1024)
 
 
-def output_of(*words, **how):
-    """What a program writes to standard output. Raises Failure with the last line of its complaints where its exit code
-    is not 0."""
+def succeeded(*words, **how):
+    """The finished process. Raises Failure with the last line of its complaints where its exit code is not 0."""
     done = finished(*words, **how)
     if done.code != 0:
         raise Failure((done.complaint.strip().splitlines() or [f"{words[0]} ended with code {done.code}"])[-1])
-    return done.output
+    return done
 
 
 def with_sets(overrides):

@@ -1,6 +1,6 @@
-"""Runs inside Blender: renders what export_scene wrote with Cycles.
+"""Runs inside Blender: renders with Cycles what export_scene wrote.
 
-    blender -b --factory-startup -P scripts/cycles_scene.py -- FOLDER OUTPUT.exr SAMPLES SEED [STEP_RATE]
+    blender -b --factory-startup -P blender_scene.py -- FOLDER OUTPUT.exr SAMPLES SEED [STEP_RATE]
 
 Prints `cycles seconds S`, the time of the rendering alone. Conventions: one Blender unit is 100 m; a sun's strength is
 the irradiance on a plane that faces it, its light falls along the lamp's -Z; a world's colour times strength is radiance;

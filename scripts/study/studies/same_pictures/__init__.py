@@ -18,6 +18,7 @@ from study.studies.same_pictures.difference import difference, pixels_of
 from study.studies.same_pictures.frames import frame_cases
 from study.studies.same_pictures.renders import render_cases
 from study.studies.same_pictures.side import Side
+from study.tables import print_head, print_row
 
 
 def add_options(parser):
@@ -59,13 +60,13 @@ def row_of(case, pictures):
 
 def compare(cases, sides):
     """Prints the table; returns how many cases differ."""
-    print("| case | layers | pixels | result |\n|---|---|---|---|", flush=True)
+    print_head(["case", "layers", "pixels", "result"])
     differing = 0
     with ThreadPoolExecutor(2) as pool:
         for case in cases:
             cells, equal = row_of(case, list(pool.map(lambda side: made(case, side), sides)))
             differing += not equal
-            print("| " + " | ".join(cells) + " |", flush=True)
+            print_row(cells)
     return differing
 
 

@@ -6,7 +6,8 @@ import numpy
 
 from study.pictures import read_exr
 from study.program import Failure
-from study.studies.same_pictures.side import Case, ServiceError
+from study.service import ServiceError
+from study.studies.same_pictures.side import Case
 
 PRODUCTS = ["color", "cloud", "transmittance", "depth", "front"]
 SUN = {"azimuth": -100, "elevation": 10}

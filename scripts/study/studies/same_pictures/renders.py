@@ -2,8 +2,8 @@
 
 import numpy
 
-from study.pictures import write_exr
-from study.program import output_of, size_sets, with_sets
+from study.pictures import read_exr, write_exr
+from study.program import size_sets, with_sets
 from study.studies.same_pictures.side import Case
 
 WIDTH, HEIGHT = 160, 90
@@ -98,7 +98,7 @@ def from_a_file(folder):
     """A cloud that `lumulus cloud` wrote, with an override of its grid."""
     def make(side):
         path = side.folder / "stratus.vdb"
-        output_of(side.program, "cloud", "stratus", "-o", path, "--resolution", 48, "--seed", 3)
+        side.succeeded("cloud", "stratus", "-o", path, "--resolution", 48, "--seed", 3)
         return side.picture("render", folder / "cumulus.toml", "from-a-file",
                             *with_sets([*SMALL, f"cloud.0.vdb={path}", "cloud.0.grid=density"]))
 
@@ -108,14 +108,15 @@ def from_a_file(folder):
 def composite_case(fog_filter):
     """A step edge of light and depth, through the haze."""
     def make(side):
-        y, x = numpy.mgrid[0:HEIGHT, 0:WIDTH]
-        light = numpy.where((x < WIDTH // 2) == (y < HEIGHT // 2), 0.05, 5.0)
-        color = side.folder / "step.exr"
-        write_exr(color, {"R": light, "G": 0.5 * light, "B": light * light, "Z": numpy.where(x < WIDTH // 2, 20.0, 400.0)})
+        y, x = numpy.mgrid[0:36, 0:64]
+        light = numpy.where((x < 32) == (y < 18), 0.05, 5.0)
+        color, output = side.path("step"), side.path("composite", fog_filter)
+        write_exr(color, {"R": light, "G": 0.5 * light, "B": light * light, "Z": numpy.where(x < 32, 20.0, 400.0)})
         scene = side.folder / "step.toml"
         scene.write_text("cloud = []\n[camera]\nposition = [0, 6, 0]\ntarget = [0, 6, -1]\n"
                          "[[fog.media]]\nscattering = 0.01\ng = 0.9\n")
-        return side.composite(color, scene, f"composite-{fog_filter}", *with_sets([f"fog.filter={fog_filter}"]))
+        side.composite(color, scene, output, [f"fog.filter={fog_filter}"])
+        return read_exr(output)
 
     return Case(f"composite, {fog_filter}", make, fog_filter == "scatter")
 

@@ -1,17 +1,19 @@
-#!/usr/bin/python3
-"""Time and memory against the number of voxels, of collectors and of photons: three Markdown tables on stdout.
+"""Time and memory against the number of voxels, of collectors and of photons. Three Markdown tables.
 
-    scripts/scaling.py --json build/scaling.json
+    scripts/study/run scaling --json build/scaling.json
 """
 
-from measuring import Lumulus, Table, finish, parser_of, run, size_sets
+from study.lumulus import Lumulus, add_common_options
+from study.program import size_sets
+from study.tables import Table, write_figures
 
 SCENE = "cumulus-side-lit"
-TITLES = ["load s", "prepare s", "trace s", "draw s", "total s", "collectors", "GPU MiB", "process MiB"]
+PARTS = ["load", "prepare", "trace", "draw", "total"]  # of a run's seconds
+TITLES = [f"{part} s" for part in PARTS] + ["collectors", "GPU MiB", "process MiB"]
 
 
 def figures_of(stats):
-    return {**{name: stats["seconds"][name] for name in ("load", "prepare", "trace", "draw", "total")},
+    return {**{name: stats["seconds"][name] for name in PARTS},
             **{name: stats[name] for name in ("photons", "collectors", "gpu_bytes", "rss_bytes", "events")}}
 
 
@@ -25,19 +27,20 @@ def study(lumulus, title, values, sets_of, text=str):
             stats = lumulus.render(SCENE, lumulus.path("picture"), sets_of(value))
         found = figures_of(stats)
         table.add({title: value, **found},
-                  [text(value)] + [f"{found[name]:.2f}" for name in ("load", "prepare", "trace", "draw", "total")] +
+                  [text(value)] + [f"{found[name]:.2f}" for name in PARTS] +
                   [str(found["collectors"])] + [f"{found[name] / 2**20:.0f}" for name in ("gpu_bytes", "rss_bytes")])
     return table.figures
 
 
-def main():
-    parser = parser_of(__doc__, width=1280)
+def add_options(parser):
+    add_common_options(parser, width=1280)
     parser.add_argument("--resolutions", nargs="*", type=int, default=[64, 128, 256, 512])
     parser.add_argument("--collectors", nargs="*", type=int, default=[1000, 10000, 30000, 100000])
     parser.add_argument("--photons", nargs="*", type=float, default=[1e5, 1e6, 1e7, 1e8])
-    options = parser.parse_args()
-    lumulus = Lumulus(options)
-    lumulus.sets += size_sets(options.width)
+
+
+def main(options):
+    lumulus = Lumulus.of(options, size_sets(options.width))
     figures = {}
     if options.resolutions:
         figures["voxels"] = study(lumulus, "voxels along the longest side", options.resolutions,
@@ -51,8 +54,4 @@ def main():
         figures["photons"] = study(lumulus, "photons", [int(n) for n in options.photons],
                                    lambda n: [f"photon_map.photons={n}",
                                               f"photon_map.generations={max(1, n // 200000)}"], "{:.0e}".format)
-    finish(options, figures)
-
-
-if __name__ == "__main__":
-    run(main)
+    write_figures(options, figures)

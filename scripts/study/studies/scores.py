@@ -1,22 +1,23 @@
-#!/usr/bin/python3
-"""Scores of the quality presets in every shipped scene, or from cameras and under suns that are in none (--unseen):
+"""Scores of the quality presets in every shipped scene, or from cameras and under suns that are in none (--unseen).
 relMSE and bias against two independent references (which frees them of the references' noise), with the angle between the
-view and the direction to the sun, and whether the goals are met. References that are in the folder already are
-gone on with where they have fewer samples. Give them 256 or more: relative errors are divided by the references' squares,
-whose noise adds about 1.5 times the square of a reference's own relMSE. Markdown on stdout.
+view and the direction to the sun, and whether the goals are met. References that are in the folder already are gone on with
+where they have fewer samples. Give them 256 or more: relative errors are divided by the references' squares, whose noise
+adds about 1.5 times the square of a reference's own relMSE.
 
-    scripts/scores.py --vdb wdas_cloud_sixteenth.vdb --spp 512 --folder build/scores --json build/scores.json
-    scripts/scores.py --unseen --vdb wdas_cloud_sixteenth.vdb --spp 256 --folder build/unseen --modes march
+    scripts/study/run scores --vdb wdas_cloud_sixteenth.vdb --spp 512 --folder build/scores --json build/scores.json
+    scripts/study/run scores --unseen --vdb wdas_cloud_sixteenth.vdb --spp 256 --folder build/unseen --modes march
 """
 
 import math
 import tomllib
 
-from measuring import SCENES, Lumulus, Table, finish, parser_of, run, scene_values, size_sets
-from unseen_views import VIEWS
+from study.lumulus import SCENES, Lumulus, add_common_options, scene_values
+from study.program import Failure, size_sets
+from study.tables import Table, write_figures
+from study.unseen_views import VIEWS
 
 QUALITIES = ["draft", "interactive", "final"]
-
+MODES = ["march", "billboards"]
 
 # Goals at `final` for relMSE and |bias|: further than this from the sun, and nearer.
 NEAR_SUN = 20.0
@@ -46,37 +47,46 @@ def verdict(quality, angle, found):
     return "misses " + ", ".join(missed) if missed else "meets" if quality != "draft" else "-"
 
 
-def main():
-    parser = parser_of(__doc__, width=160)
+def add_options(parser):
+    add_common_options(parser, width=160)
     parser.add_argument("--scenes", nargs="+", help="names of shipped scenes, or of unseen views")
-    parser.add_argument("--unseen", action="store_true", help="views of scripts/unseen_views.py instead of shipped scenes")
+    parser.add_argument("--unseen", action="store_true", help="views of unseen_views.py instead of shipped scenes")
     parser.add_argument("--qualities", nargs="+", default=QUALITIES, choices=QUALITIES)
-    parser.add_argument("--modes", nargs="+", default=["march", "billboards"], choices=["march", "billboards"])
+    parser.add_argument("--modes", nargs="+", default=MODES, choices=MODES)
     parser.add_argument("--spp", type=int, default=256, help="of each reference")
-    options = parser.parse_args()
-    lumulus = Lumulus(options)
-    lumulus.sets += size_sets(options.width)
+
+
+def score(lumulus, name, scene, sets, truths, mode, quality):
+    """The figures of a row."""
+    picture = lumulus.path(name, mode, quality)
+    stats = lumulus.render(scene, picture, [*sets, f"draw.mode={mode}"], ["--quality", quality])
+    found = lumulus.compare(picture, *truths)
+    angle = sun_angle(scene, sets)
+    return {"scene": name, "degrees_off_the_sun": angle, "mode": mode, "quality": quality, "relmse": found["relmse"],
+            "relative_bias": found["relative_bias"], "flip": found["flip"], "seconds": stats["seconds"],
+            "goals": verdict(quality, angle, found)}
+
+
+def texts_of(figures):
+    angle = figures["degrees_off_the_sun"]
+    return [figures["scene"], "-" if angle is None else f"{angle:.0f}°", figures["mode"], figures["quality"],
+            f"{figures['relmse']:.4f}", f"{100 * figures['relative_bias']:+.1f} %", f"{figures['flip']:.3f}",
+            f"{figures['seconds']['total']:.1f}", figures["goals"]]
+
+
+def main(options):
+    lumulus = Lumulus.of(options, size_sets(options.width))
     table = Table(["scene", "view off the sun", "mode", "quality", "relMSE", "bias", "FLIP", "total s", "goals"])
     for name in options.scenes or (VIEWS if options.unseen else SCENES):
+        if options.unseen and name not in VIEWS:
+            raise Failure(f"no view {name} in unseen_views.py")
         scene, sets = VIEWS[name] if options.unseen else (name, [])
         if not lumulus.scenes([scene]):
             continue
         truths = [lumulus.reference(scene, lumulus.path(name, seed), sets, spp=options.spp, seed=seed)
                   for seed in (101, 102)]
-        angle = sun_angle(scene, sets)
         for mode in options.modes:
             for quality in options.qualities:
-                picture = lumulus.path(name, mode, quality)
-                stats = lumulus.render(scene, picture, [*sets, f"draw.mode={mode}"], ["--quality", quality])
-                found = lumulus.compare(picture, *truths)
-                figures = {"scene": name, "degrees_off_the_sun": angle, "mode": mode, "quality": quality,
-                           "relmse": found["relmse"], "relative_bias": found["relative_bias"], "flip": found["flip"],
-                           "seconds": stats["seconds"], "goals": verdict(quality, angle, found)}
-                table.add(figures, [name, "-" if angle is None else f"{angle:.0f}°", mode, quality,
-                                    f"{found['relmse']:.4f}", f"{100 * found['relative_bias']:+.1f} %",
-                                    f"{found['flip']:.3f}", f"{stats['seconds']['total']:.1f}", figures["goals"]])
-    finish(options, table.figures)
-
-
-if __name__ == "__main__":
-    run(main)
+                figures = score(lumulus, name, scene, sets, truths, mode, quality)
+                table.add(figures, texts_of(figures))
+    write_figures(options, table.figures)

@@ -1,20 +1,15 @@
-#!/usr/bin/python3
-"""Pictures that the fog's filters are measured on, made from nothing: an HDR night with many small lamps before and
-behind the edges of buildings, and a step edge. Colour and distance as one EXR file, with a scene file for its camera.
+"""Pictures that the fog's filters are measured on, made from nothing. An HDR night with many small lamps before and behind
+the edges of buildings, and a step edge: colour and distance as one EXR file each, with scene files for their camera.
 
-    scripts/fog_scenes.py FOLDER [--width 320] [--height 180] [--yaw DEGREES]
+    scripts/study/run fog_scenes FOLDER
+"""
 
-Needs python3-numpy."""
-
-import argparse
 import math
-import os
-import sys
+import pathlib
 
 import numpy
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "cli"))
-from exr_writer import write_exr  # noqa: E402
+from study.pictures import write_exr
 
 FIELD_OF_VIEW = 40.0  # degrees, of the height
 EYE = numpy.array([0.0, 6.0, 0.0])
@@ -97,9 +92,7 @@ def step(width, height):
 
 
 def write(path, radiance, distance):
-    height, width = distance.shape
-    layers = {name: radiance[..., i].ravel() for i, name in enumerate("RGB")}
-    write_exr(path, width, height, {**layers, "Z": distance.ravel()})
+    write_exr(path, {**{name: radiance[..., i] for i, name in enumerate("RGB")}, "Z": distance})
 
 
 def scene_text(media, yaw=0.0):
@@ -113,20 +106,16 @@ def medium(scattering, g):
     return f"[[fog.media]]\nscattering = {scattering}\ng = {g}\n"
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder")
+def add_options(parser):
+    parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--width", type=int, default=320)
     parser.add_argument("--height", type=int, default=180)
-    parser.add_argument("--yaw", type=float, default=0.0)
-    options = parser.parse_args()
-    os.makedirs(options.folder, exist_ok=True)
-    write(os.path.join(options.folder, "night.exr"), *night(options.width, options.height, options.yaw))
-    write(os.path.join(options.folder, "step.exr"), *step(options.width, options.height))
+    parser.add_argument("--yaw", type=float, default=0.0, help="degrees that the camera is turned by")
+
+
+def main(options):
+    options.folder.mkdir(parents=True, exist_ok=True)
+    write(options.folder / "night.exr", *night(options.width, options.height, options.yaw))
+    write(options.folder / "step.exr", *step(options.width, options.height))
     for i, (scattering, g) in enumerate(MEDIA):
-        with open(os.path.join(options.folder, f"medium{i}.toml"), "w") as file:
-            file.write(scene_text(medium(scattering, g), options.yaw))
-
-
-if __name__ == "__main__":
-    main()
+        (options.folder / f"medium{i}.toml").write_text(scene_text(medium(scattering, g), options.yaw))

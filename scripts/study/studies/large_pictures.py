@@ -1,43 +1,37 @@
-#!/usr/bin/python3
-"""Time to a relMSE of .003 in large pictures: `render`, as a whole process with its shaders in Mesa's cache and without,
+"""Time to a relMSE of 0.003 in large pictures. `render`, as a whole process with its shaders in Mesa's cache and without,
 against the path tracer's samples without its loading. Errors are the mean product of a picture's errors against two
-references of few samples (scripts/large_score.py); between `interactive`, four times its photons and `final` time is
-interpolated along straight lines of logarithms. `--target-error .003` is there for what it takes until the program says
-so itself. Needs Debian's python3-numpy.
+references of few samples, divided by the picture's squares (study large_score); between `interactive`, four times its
+photons and `final` time is interpolated along straight lines of logarithms. `--target-error 0.003` is there for what it
+takes until the program says so itself.
 
-    scripts/large_pictures.py cumulus-side-lit cirrus --spp 24 --folder build/large
+    scripts/study/run large_pictures cumulus-side-lit cirrus --spp 24 --folder build/large
 """
 
 import math
-import os
 import tempfile
-import time
-
-from large_score import layers_of, score, squares_of
-from measuring import Failure, Lumulus, Table, finish, parser_of, run, size_sets
 
 import numpy
+
+from study.lumulus import Lumulus, add_common_options
+from study.pictures import read_exr
+from study.program import Failure, size_sets
+from study.studies.large_score import tracer_error
+from study.tables import Table, write_figures
 
 GOAL = 0.003
 WAYS = {"interactive": ["--quality", "interactive"],
         "more": ["--quality", "interactive", "--set", "photon_map.photons=8e6"],
         "final": ["--quality", "final"],
         "target": ["--target-error", str(GOAL)]}
-MESA_CACHE = "MESA_SHADER_CACHE_DIR"
 
 
-def timed(work):
-    start = time.monotonic()
-    done = work()
-    return time.monotonic() - start, done
-
-
-def optical_depth(lumulus, scene, cloud):
-    """Mean over the pixels in which the cloud is seen: from a cloud so thin that no depth is cut off."""
+def optical_depth(lumulus, scene, shown):
+    """Mean over the pixels in which `shown` has a cloud: from a cloud so thin that no depth is cut off."""
     thinner = 0.01
     path = lumulus.path(scene, "thin")
     lumulus.render(scene, path, [f"cloud.0.density_scale={thinner}", "photon_map.photons=1000"])
-    transmittance = numpy.clip(layers_of(path)["transmittance.R"][cloud], 1e-30, 1.0)
+    cloud = read_exr(shown)["transmittance.R"] < 0.999
+    transmittance = numpy.clip(read_exr(path)["transmittance.R"][cloud], 1e-30, 1.0)
     return float(numpy.mean(-numpy.log(transmittance)) / thinner)
 
 
@@ -45,11 +39,8 @@ def sample_seconds(lumulus, scene, spp):
     """References of two seeds, and the time of one sample: the difference of many and of one."""
     pictures, seconds = [], []
     for seed, samples in ((101, spp), (102, spp), (103, 1)):
-        path = lumulus.path(scene, "truth", seed)
-        for old in (path, path.with_name(path.name + ".sums")):
-            old.unlink(missing_ok=True)
-        seconds.append(timed(lambda: lumulus.reference(scene, path, spp=samples, seed=seed))[0])
-        pictures.append(path)
+        pictures.append(lumulus.path(scene, "truth", seed))
+        seconds.append(lumulus.new_reference(scene, pictures[-1], spp=samples, seed=seed).seconds)
     return pictures[:2], (seconds[0] + seconds[1] - 2 * seconds[2]) / (2 * (spp - 1))
 
 
@@ -57,11 +48,8 @@ def rendered(lumulus, scene, name):
     """Path, seconds with shaders in the cache, seconds without."""
     path = lumulus.path(scene, name)
     with tempfile.TemporaryDirectory() as cache:
-        os.environ[MESA_CACHE] = cache
-        try:
-            cold, warm = (timed(lambda: lumulus.render(scene, path, words=WAYS[name]))[0] for _ in range(2))
-        finally:
-            del os.environ[MESA_CACHE]
+        cold, warm = (lumulus.render(scene, path, words=WAYS[name], environment={"MESA_SHADER_CACHE_DIR": cache})
+                      ["process_seconds"] for _ in range(2))
     return path, warm, cold
 
 
@@ -79,22 +67,18 @@ def time_to_goal(points):
 
 def measure(lumulus, scene, spp):
     truths, sample = sample_seconds(lumulus, scene, spp)
-    references = [layers_of(path) for path in truths]
     found = {"scene": scene, "sample_seconds": sample}
     points = []
     for name in WAYS:
         path, warm, cold = rendered(lumulus, scene, name)
-        layers = layers_of(path)
-        cloud = layers["transmittance.R"] < 0.999
-        squares = squares_of(layers, cloud)
-        relmse, deviation = score(layers, *references, cloud, squares)
+        compared = lumulus.compare(path, *truths, denominator=path)
+        relmse, deviation = compared["relmse"], compared["standard_error"]["relmse"]
         found[name] = {"relmse": relmse, "deviation": deviation, "seconds": warm, "cold_seconds": cold}
         if name != "target":
             # what the references cannot tell from 0 may be as much as its deviation
             points.append((max(relmse, deviation), warm, cold))
-    tracer = numpy.mean([0.5 * (references[0][c][cloud] - references[1][c][cloud]) ** 2 / squares[c] for c in "RGB"])
-    found["optical_depth"] = optical_depth(lumulus, scene, cloud)
-    found["tracer_seconds"] = float(spp * tracer / GOAL * sample)
+    found["optical_depth"] = optical_depth(lumulus, scene, path)
+    found["tracer_seconds"] = spp * tracer_error(compared) / GOAL * sample
     found["goal_seconds"] = time_to_goal([(error, warm) for error, warm, _ in points])
     found["goal_cold_seconds"] = time_to_goal([(error, cold) for error, _, cold in points])
     return found
@@ -114,23 +98,19 @@ def texts_of(found):
     return [*start, f"{sign}{found['goal_seconds']:.1f} s", tracer, "{:,.0f} ({:,.0f})".format(*ratios)]
 
 
-def main():
-    parser = parser_of(__doc__, width=1280)
+def add_options(parser):
+    add_common_options(parser, width=1280)
     parser.add_argument("scenes", nargs="*", help="default: all")
     parser.add_argument("--spp", type=int, default=24, help="samples of each reference (default %(default)s)")
-    options = parser.parse_args()
+
+
+def main(options):
     if options.spp < 2:
         raise Failure("--spp has to be 2 at least")
-    lumulus = Lumulus(options)
-    lumulus.sets += size_sets(options.width)
-    scenes = lumulus.scenes(options.scenes)
+    lumulus = Lumulus.of(options, size_sets(options.width))
     table = Table(["scene", "optical depth", "interactive: relMSE, s (cold)", "the same, 8 M photons", "final",
-                   "--target-error .003", "3e-3 after", "path tracer (a sample)", "ratio (cold)"])
-    for scene in scenes:
+                   f"--target-error {GOAL}", f"{GOAL} after", "path tracer (a sample)", "ratio (cold)"])
+    for scene in lumulus.scenes(options.scenes):
         found = measure(lumulus, scene, options.spp)
         table.add(found, texts_of(found))
-    finish(options, table.figures)
-
-
-if __name__ == "__main__":
-    run(main)
+    write_figures(options, table.figures)

@@ -1,5 +1,4 @@
-#!/usr/bin/python3
-"""The fog's filters against the path-traced truth: lamps and markings on a plain under homogeneous fog of optical depth
+"""The fog's filters against the path-traced truth. Lamps and markings on a plain under homogeneous fog of optical depth
 1, 2, 4 and 8 at the middle of the picture, as in figure 8 of Elek, Ritschel and Seidel 2013.
 
 All surfaces give off light and reflect none, so that the filter is given exactly what the fog is given. Each depth is
@@ -7,24 +6,20 @@ rendered without the light that the fog scatters in from sun and sky, which the 
 (fog.inscattering = false), and with it. Prints tables in Markdown; FOLDER gets the EXR files (a second run goes on with
 the references that are there) and fog-truth.png: for each depth the truth, what the first filter makes of the clear
 picture, their difference in hue, saturation and brightness (as red, green and blue; white is 20 %), the truth with sun
-and sky in the fog, and the filter's difference from that.
+and sky in the fog, and the filter's difference from that. Some 20 minutes on two cores; the time goes into the references.
 
-    scripts/fog_truth.py FOLDER [--spp 256] [--width 192] [--filters scatter,masked,naive,gather]
+    scripts/study/run fog_truth build/fog-truth
+"""
 
-Needs python3-numpy. Some 20 minutes on two cores; the time goes into the references."""
-
-import argparse
 import pathlib
-import struct
-import subprocess
 import sys
-import zlib
 
 import numpy
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "tests" / "cli"))
-from exr_reader import read_exr  # noqa: E402
+from study.lumulus import Lumulus, add_program_option
+from study.pictures import as_image, read_exr, rgb, srgb
+from study.program import size_sets
+from study.tables import print_head, print_row
 
 DEPTHS = (1, 2, 4, 8)
 DISTANCE = 69.6  # metres from the eye to the middle of the picture
@@ -32,7 +27,6 @@ WHITE_DIFFERENCE = 0.2
 
 SCENE = """
 cloud = []
-image = { width = %d, height = %d }
 camera = { position = [0, 40, 0], target = [0, 0, -57] }
 sun = { azimuth = 120, elevation = 40, irradiance = 3 }
 sky = { radiance = [0.2, 0.3, 0.5] }
@@ -51,18 +45,8 @@ THINGS = (("plane", (0, 0, 0), None, (0.25, 0.22, 0.2)),
           ("disc", (34, 0.01, -76), 8, (1, 0.9, 0.2)))
 
 
-def options():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--lumulus", default=ROOT / "build/release/lumulus", type=pathlib.Path, help="the executable")
-    parser.add_argument("--spp", default=256, type=int, help="samples per pixel of each of the two references")
-    parser.add_argument("--width", default=192, type=int, help="pixels; 16:9")
-    parser.add_argument("--filters", default="scatter,masked,naive,gather", help="the first one is in the picture")
-    return parser.parse_args()
-
-
-def scene_text(width):
-    text = SCENE % (width, width * 9 // 16)
+def scene_text():
+    text = SCENE
     for kind, position, radius, emission in THINGS:
         text += f'[[surface]]\nkind = "{kind}"\nposition = {list(position)}\nalbedo = 0\nemission = {list(emission)}\n'
         text += f"radius = {radius}\n" if radius else ""
@@ -72,34 +56,33 @@ def scene_text(width):
 class Runs:
     """Pictures made by the program, as arrays [height, width, 3]."""
 
-    def __init__(self, wanted):
-        self.wanted, self.folder = wanted, wanted.folder
-        self.folder.mkdir(parents=True, exist_ok=True)
-        self.scene = self.folder / f"scene-{wanted.width}.toml"
-        self.scene.write_text(scene_text(wanted.width))
-        self.clear = self.reference("clear", 64, 1, ["fog.media=[]"])[1]
+    def __init__(self, options):
+        self.options, self.lumulus = options, Lumulus(options.lumulus, options.folder, size_sets(options.width))
+        self.scene = self.lumulus.path("scene", suffix=".toml")
+        self.scene.write_text(scene_text())
+        self.clear = self.path("clear-1")
+        self.reference("clear", 64, 1, ["fog.media=[]"])
 
-    def run(self, command, name, arguments, settings):
-        path = self.folder / f"{name}-{self.wanted.width}.exr"
-        sets = [word for setting in settings for word in ("--set", setting)]
+    def path(self, name):
+        path = self.lumulus.path(name, self.options.width)
         print("making", path.name, file=sys.stderr, flush=True)
-        subprocess.run([self.wanted.lumulus, command, *arguments, "-o", path, *sets], check=True)
-        width, height, layers, _ = read_exr(path)
-        picture = numpy.stack([numpy.array(layers[c]) for c in "RGB"], axis=-1)
-        return picture.reshape(height, width, 3), path
+        return path
 
     def reference(self, name, spp, seed, settings):
-        arguments = [self.scene, "--spp", str(spp), "--seed", str(seed), "--resume", "--quiet"]
-        return self.run("reference", f"{name}-{seed}", arguments, settings)
+        path = self.path(f"{name}-{seed}")
+        self.lumulus.new_reference(self.scene, path, settings, spp, seed, ["--resume"])
+        return rgb(read_exr(path))
 
     def truths(self, depth, inscattering):
         """Two independent references."""
         settings = [f"fog.media.0.scattering={depth / DISTANCE}", f"fog.inscattering={str(inscattering).lower()}"]
         name = f"truth-{depth}-{'with' if inscattering else 'without'}"
-        return [self.reference(name, self.wanted.spp, seed, settings)[0] for seed in (1, 2)]
+        return [self.reference(name, self.options.spp, seed, settings) for seed in (1, 2)]
 
     def composite(self, name, settings):
-        return self.run("composite", name, ["--color", self.clear, "--scene", self.scene], settings)[0]
+        path = self.path(name)
+        self.lumulus.composite(self.clear, self.scene, path, [*self.lumulus.sets, *settings])
+        return rgb(read_exr(path))
 
     def filtered(self, depth, kind):
         return self.composite(f"{kind}-{depth}", [f"fog.media.0.scattering={depth / DISTANCE}", f"fog.filter={kind}"])
@@ -110,9 +93,8 @@ class Runs:
 
 
 def display(radiance):
-    """Intensities from 0 to 1 as a screen shows them (IEC 61966-2-1)."""
-    x = numpy.clip(radiance, 0.0, 1.0)
-    return numpy.where(x < 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
+    """Intensities from 0 to 1 as a screen shows them."""
+    return srgb(numpy.clip(radiance, 0.0, 1.0))
 
 
 def hsb(intensity):
@@ -130,8 +112,8 @@ def hsb_difference(a, b):
     """Of two pictures of intensities; hue as a share of half the circle, weighted by the lesser saturation: the hue of
     grey is none."""
     (h0, s0, b0), (h1, s1, b1) = hsb(a), hsb(b)
-    turn = numpy.abs(h0 - h1)
-    hue = 2 * numpy.minimum(turn, 1 - turn) * numpy.minimum(s0, s1)
+    around = numpy.abs(h0 - h1)
+    hue = 2 * numpy.minimum(around, 1 - around) * numpy.minimum(s0, s1)
     return numpy.stack([hue, numpy.abs(s0 - s1), numpy.abs(b0 - b1)], axis=-1)
 
 
@@ -149,32 +131,28 @@ def row(depth, kind, picture, truths, straight):
     rmse = numpy.sqrt(numpy.mean((display(picture) - shown) ** 2))
     hue, saturation, brightness = 100 * hsb_difference(display(picture), shown).mean(axis=(0, 1))
     bias = picture.mean() / truth.mean() - 1
-    return (f"| {depth} | `{kind}` | {relative_rmse(picture, truths, straight):.3f} | {100 * bias:+.1f} % | {rmse:.3f} "
-            f"| {noise:.3f} | {hue:.1f} % | {saturation:.1f} % | {brightness:.1f} % |")
+    return [str(depth), f"`{kind}`", f"{relative_rmse(picture, truths, straight):.3f}", f"{100 * bias:+.1f} %",
+            f"{rmse:.3f}", f"{noise:.3f}", f"{hue:.1f} %", f"{saturation:.1f} %", f"{brightness:.1f} %"]
 
 
 def print_table(title, rows):
-    print(f"\n{title}\n\n| τ | filter | relative RMSE of the scattered part | bias | RMSE of the shown intensities | noise "
-          "in it | hue | saturation | brightness |\n|---|---|---|---|---|---|---|---|---|")
-    print("\n".join(rows), flush=True)
+    print(f"\n{title}\n")
+    print_head(["τ", "filter", "relative RMSE of the scattered part", "bias", "RMSE of the shown intensities",
+                "noise in it", "hue", "saturation", "brightness"])
+    for cells in rows:
+        print_row(cells)
 
 
-def write_png(path, intensity):
-    """Intensities from 0 to 1."""
-    pixels = (255 * numpy.clip(intensity, 0, 1) + 0.5).astype(numpy.uint8)
-    height, width, _ = pixels.shape
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    lines = b"".join(b"\0" + line.tobytes() for line in pixels)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
-                     chunk(b"IDAT", zlib.compress(lines, 9)) + chunk(b"IEND", b""))
+def add_options(parser):
+    add_program_option(parser)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--spp", default=256, type=int, help="samples per pixel of each of the two references")
+    parser.add_argument("--width", default=192, type=int, help="pixels; 16:9")
+    parser.add_argument("--filters", default="scatter,masked,naive,gather", help="the first one is in the picture")
 
 
-def main():
-    wanted = options()
-    runs, kinds = Runs(wanted), wanted.filters.split(",")
+def main(options):
+    runs, kinds = Runs(options), options.filters.split(",")
     without, with_light, sheet = [], [], []
     for depth in DEPTHS:
         straight = runs.attenuated(depth)
@@ -189,8 +167,4 @@ def main():
                                         hsb_difference(filtered, lit) / WHITE_DIFFERENCE], axis=1))
     print_table("Without light of sun and sky scattered in by the fog:", without)
     print_table("With it:", with_light)
-    write_png(wanted.folder / "fog-truth.png", numpy.concatenate(sheet, axis=0))
-
-
-if __name__ == "__main__":
-    main()
+    as_image(numpy.concatenate(sheet, axis=0)).save(options.folder / "fog-truth.png", optimize=True)

@@ -1,30 +1,23 @@
-#!/usr/bin/python3
-"""Growth of time with pixels and with photons: a plot, and the slopes on doubly logarithmic paper (1: linear). Needs
-Debian's python3-matplotlib.
+"""Growth of time with pixels and with photons. A plot, and the slopes on doubly logarithmic paper (1: linear). Needs Debian's
+python3-matplotlib.
 
-    scripts/growth.py -o docs/images/growth.svg --json build/growth.json
+    scripts/study/run growth -o docs/images/growth.svg --json build/growth.json
 """
 
-import math
 import pathlib
 
-from measuring import Lumulus, finish, parser_of, run, size_sets
+import numpy
 
-try:
-    import matplotlib
-    matplotlib.use("svg")
-    from matplotlib import pyplot
-except ImportError as missing:
-    raise SystemExit(f"growth.py: {missing}: as root, run apt-get install python3-matplotlib")
+from study.lumulus import Lumulus, add_common_options
+from study.program import Failure, size_sets
+from study.tables import write_figures
 
 SCENE = "cumulus-side-lit"
 
 
 def slope(xs, ys):
     """Of the straight line of least squares through the logarithms."""
-    a, b = [math.log(x) for x in xs], [math.log(y) for y in ys]
-    mean_a, mean_b = sum(a) / len(a), sum(b) / len(b)
-    return (sum((x - mean_a) * (y - mean_b) for x, y in zip(a, b)) / sum((x - mean_a) ** 2 for x in a))
+    return float(numpy.polyfit(numpy.log(xs), numpy.log(ys), 1)[0])
 
 
 def measure(lumulus, name, sets):
@@ -46,12 +39,17 @@ def with_photons(lumulus, numbers):
 def figures_of(name, points):
     """Of the part, and of the process as a whole."""
     xs, parts, wholes = zip(*points)
-    return {name: {"points": list(zip(xs, parts)), "slope": slope(xs, parts), "last_slope": slope(xs[-2:], parts[-2:])},
-            f"{name}, process": {"points": list(zip(xs, wholes)), "slope": slope(xs, wholes),
-                                 "last_slope": slope(xs[-2:], wholes[-2:])}}
+    return {title: {"points": list(zip(xs, ys)), "slope": slope(xs, ys), "last_slope": slope(xs[-2:], ys[-2:])}
+            for title, ys in ((name, parts), (f"{name}, process", wholes))}
 
 
 def plot(figures, path):
+    try:
+        import matplotlib
+        matplotlib.use("svg")
+        from matplotlib import pyplot
+    except ImportError as missing:
+        raise Failure(f"{missing}: as root, run apt-get install python3-matplotlib") from None
     matplotlib.rcParams.update({"svg.hashsalt": "lumulus", "font.size": 9})
     picture, (left, right) = pyplot.subplots(1, 2, figsize=(9, 3.6))
     for axes, names, title in ((left, ["march", "billboards"], "pixels"), (right, ["tracing"], "photons")):
@@ -68,13 +66,15 @@ def plot(figures, path):
     picture.savefig(path, metadata={"Date": None})
 
 
-def main():
-    parser = parser_of(__doc__)
+def add_options(parser):
+    add_common_options(parser)
     parser.add_argument("--widths", nargs="+", type=int, default=[160, 320, 640, 1280, 2560])
     parser.add_argument("--photons", nargs="+", type=float, default=[1e5, 3e5, 1e6, 3e6, 1e7])
     parser.add_argument("-o", "--output", type=pathlib.Path, required=True)
-    options = parser.parse_args()
-    lumulus = Lumulus(options)
+
+
+def main(options):
+    lumulus = Lumulus.of(options)
     figures = {}
     for mode in ("march", "billboards"):
         figures |= figures_of(mode, with_pixels(lumulus, options.widths, mode))
@@ -83,8 +83,4 @@ def main():
         print(f"{name}: slope {found['slope']:.2f}, between the last two {found['last_slope']:.2f}: " +
               ", ".join(f"{x} in {y:.2f} s" for x, y in found["points"]), flush=True)
     plot(figures, options.output)
-    finish(options, figures)
-
-
-if __name__ == "__main__":
-    run(main)
+    write_figures(options, figures)

@@ -1,27 +1,17 @@
-#!/usr/bin/python3
-"""What the frame service adds to a frame: bytes on the wire, and milliseconds from the last pass to the client, at
-1280×720 raw half, with the payload's hash and without, against a plain copy of the frame in memory.
-service_overhead.py [--frames N]
+"""What the frame service adds to a frame. Bytes on the wire, and milliseconds from the last pass to the client, at 1280×720
+raw half, with the payload's hash and without, against a plain copy of the frame in memory.
 """
 
-import argparse
 import json
-import os
-import sys
 import time
 
 import numpy
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "..", "tests", "service"))
-from server import LUMULUS, Server
+from study.lumulus import add_program_option
+from study.service import Server, percentile
 
 WIDTH, HEIGHT = 1280, 720
 AWAY = {"position": [0, 100, 5000], "target": [0, 100, 6000]}  # from the cloud: what it takes to draw is no matter
-
-
-def median(values):
-    return sorted(values)[len(values) // 2]
 
 
 def measure(client, frames, **fields):
@@ -41,17 +31,19 @@ def measure(client, frames, **fields):
         copies.append(1e3 * (time.perf_counter() - started))
     sent = client.statistics()["sent_bytes_total"] - sent
     raw = WIDTH * HEIGHT * 4 * 2
-    return {"frame_bytes": raw, "wire_bytes": sent / frames, "wire_overhead": sent / frames / raw - 1.0,
-            "draw_ms": median(draw), "encode_ms": median(encode), "transfer_ms": median(transfer),
-            "memcpy_ms": median(copies),
-            "last_pass_to_client_over_memcpy": (median(encode) + median(transfer)) / median(copies)}
+    medians = {name: percentile(values, 0.5) for name, values in (
+        ("draw_ms", draw), ("encode_ms", encode), ("transfer_ms", transfer), ("memcpy_ms", copies))}
+    return {"frame_bytes": raw, "wire_bytes": sent / frames, "wire_overhead": sent / frames / raw - 1.0, **medians,
+            "last_pass_to_client_over_memcpy": (medians["encode_ms"] + medians["transfer_ms"]) / medians["memcpy_ms"]}
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+def add_options(parser):
+    add_program_option(parser)
     parser.add_argument("--frames", type=int, default=20)
-    options = parser.parse_args()
-    server = Server(LUMULUS)
+
+
+def main(options):
+    server = Server(str(options.lumulus))
     try:
         with server.client() as client:
             client.frame(width=64, height=48)  # fills the ring
@@ -60,7 +52,3 @@ def main():
     finally:
         server.stop()
     print(json.dumps(result, indent=2))
-
-
-if __name__ == "__main__":
-    main()

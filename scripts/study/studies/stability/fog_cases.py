@@ -3,10 +3,11 @@
 import math
 import random
 
-from stability_tools import Failure, Outcome  # first: it says where the EXR files' modules are
+import numpy
 
-from exr_reader import read_exr
-from exr_writer import write_exr
+from study.pictures import read_exr, write_exr
+from study.program import Failure
+from study.studies.stability.tools import Case, Outcome
 
 CAMERA = "cloud = []\n[camera]\nposition = {eye}\ntarget = {target}\nup = {up}\nvertical_fov = 60\n"
 
@@ -16,21 +17,22 @@ def picture(path, width, height, distance):
     numbers = random.Random(1)
     count = width * height
     light = [1e5 if numbers.random() < 0.02 else 0.1 for _ in range(count)]
-    write_exr(path, width, height, {"R": light, "G": light, "B": light, "Z": [distance(i) for i in range(count)]})
+    layers = {"R": light, "G": light, "B": light, "Z": [distance(i) for i in range(count)]}
+    write_exr(path, {name: numpy.reshape(values, (height, width)) for name, values in layers.items()})
     return light
 
 
 def composite(lumulus, media, width=40, height=24, distance=lambda i: 50.0, eye=(0, 10, 0), target=(0, 10, -1),
               up=(0, 1, 0)):
     """Input and output of one channel. Fails where a value is not finite or below 0."""
-    color, scene, output = (lumulus.folder / name for name in ("fog.exr", "fog.toml", "fogged.exr"))
+    color, scene, output = (lumulus.path(name, suffix="") for name in ("fog.exr", "fog.toml", "fogged.exr"))
     light = picture(color, width, height, distance)
     scene.write_text(CAMERA.format(eye=list(eye), target=list(target), up=list(up)) + "[[fog.media]]\n" + media)
-    lumulus.output("composite", "--color", color, "--scene", scene, "-o", output)
-    values = read_exr(output)[2]["G"]
-    if not all(math.isfinite(value) and value >= 0.0 for value in values):
+    lumulus.composite(color, scene, output)
+    values = read_exr(output)["G"].ravel()
+    if not (numpy.isfinite(values) & (values >= 0.0)).all():
         raise Failure("a value is not finite or below 0")
-    return light, values
+    return light, values.tolist()
 
 
 def kept(name, why, media, share, tolerance=0.02, **view):
@@ -41,10 +43,17 @@ def kept(name, why, media, share, tolerance=0.02, **view):
         return Outcome(f"{found:.6g} of the light (expected {share:.6g})", None,
                        abs(found - share) <= tolerance * share + 1e-30)
 
-    return name, why, run
+    return Case(name, why, run)
 
 
-def rows():
+def mixed(lumulus):
+    """Depths from nothing to the sky side by side: finite is what is asked for."""
+    depths = (0.0, 1e-6, 1.0, 1e4, 1e10, float("inf"))
+    light, values = composite(lumulus, "visibility = 50\n", distance=lambda i: depths[i % len(depths)])
+    return Outcome(f"{sum(values) / sum(light):.4g} of the light", None, True)
+
+
+def fog_cases():
     for visibility in (1, 100, 1e6):
         for g in (0, 0.9, 0.9999):
             yield kept(f"visibility {visibility:g} m, g {g:g}", "nothing is absorbed: all light is kept",
@@ -69,17 +78,4 @@ def rows():
                distance=lambda i: 2e6, eye=(0, 0, 1e6), target=(0, 0, 0), width=1, height=1)
     for width, height in ((1, 1), (2, 1), (8191, 3), (3, 700)):
         yield kept(f"{width}×{height} pixels", "all light is kept", "visibility = 100\n", 1.0, width=width, height=height)
-
-
-def mixed(lumulus):
-    """Depths from nothing to the sky side by side: finite is what is asked for."""
-    depths = (0.0, 1e-6, 1.0, 1e4, 1e10, float("inf"))
-    light, values = composite(lumulus, "visibility = 50\n", distance=lambda i: depths[i % len(depths)])
-    return Outcome(f"{sum(values) / sum(light):.4g} of the light", None, True)
-
-
-def fog_cases(make):
-    """`make` builds a case of (name, expected, run)."""
-    for row in rows():
-        yield make(*row)
-    yield make("depths 0, 1e-6, 1, 1e4, 1e10 and infinity side by side", "finite, nothing below 0", mixed)
+    yield Case("depths 0, 1e-6, 1, 1e4, 1e10 and infinity side by side", "finite, nothing below 0", mixed)

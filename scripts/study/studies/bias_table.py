@@ -1,17 +1,15 @@
-#!/usr/bin/python3
-"""What error stays however many photons there are, over shipped scenes: two Markdown tables for docs/error-time.md, from
-whose last columns, the largest over the scenes, src/progressive/bias.cpp has its figures.
+"""What error stays however many photons there are. Two Markdown tables over shipped scenes, from whose last columns, the
+largest over the scenes, src/progressive/bias.cpp has its figures.
 
 Bands: relMSE of pictures with 1 to 6 bands against one with 8 from the same photons, so that there is no noise in it.
-The rest: pictures against two independent references (large_score.py), less the noise that their halves tell. Cells of the
-light field are smaller where there are more photons, so that the number of them matters. Errors are divided by the squares of
-the picture, those of billboards by the march's with as many photons: a pixel that billboards leave dark would count many
-times. Run it after scripts/build.sh.
-Needs Debian's python3-numpy.
+The rest: pictures against two independent references, less the noise that their halves tell. Cells of the light field are
+smaller where there are more photons, so that the number of them matters. Errors are divided by the squares of the picture,
+those of billboards by the march's with as many photons: a pixel that billboards leave dark would count many times.
 """
 
-from large_score import layers_of, score, squares_of
-from measuring import Lumulus, Table, finish, parser_of, run, size_sets
+from study.lumulus import Lumulus, add_common_options
+from study.program import size_sets
+from study.tables import Table, write_figures
 
 SCENES = ["cumulus-side-lit", "cumulus-back-lit", "cumulus-front-lit", "cumulus-low-sun", "smoke"]
 MANY = 8000000
@@ -37,26 +35,20 @@ def by_bands(lumulus, scenes):
         yield bands, errors
 
 
-def of_the_rest(lumulus, scenes, spp):
-    """Rows of (variant, error by scene)."""
+def of_the_rest(lumulus, scenes, spp, fewer):
+    """Rows of (variant, error by scene); photons are divided by `fewer`."""
     truths = {scene: [lumulus.reference(scene, lumulus.path(scene, "truth", seed), spp=spp, seed=seed)
                       for seed in (101, 102)] for scene in scenes}
-    marched = {}
     for name, photons, sets in VARIANTS:
         errors = []
         for scene in scenes:
-            picture = lumulus.path(scene, "picture")
-            half = [f"photon_map.photons={photons}", "photon_map.generations=2"]
+            marched = lumulus.path(scene, "marched", photons)
+            picture = marched if not sets else lumulus.path(scene, "picture")
+            half = [f"photon_map.photons={photons // fewer}", "photon_map.generations=2"]
             stats = lumulus.render(scene, picture, half + sets, ["--target-error", ANY_NOISE])
-            layers = layers_of(picture)
-            cloud = layers["transmittance.R"] < 0.999
-            covered = cloud, squares_of(layers, cloud)
-            if photons == MANY and not sets:
-                marched[scene] = covered
-            elif "draw.mode=billboards" in sets:
-                covered = marched[scene]
-            relmse, _ = score(layers, *map(layers_of, truths[scene]), *covered)
-            errors.append(relmse - stats["progressive"]["noise"])
+            denominator = marched if "draw.mode=billboards" in sets else picture
+            found = lumulus.compare(picture, *truths[scene], denominator=denominator)
+            errors.append(found["relmse"] - stats["progressive"]["noise"])
         yield name, errors
 
 
@@ -69,17 +61,16 @@ def table(title, scenes, rows):
     return result.figures
 
 
-def main():
-    parser = parser_of(__doc__, width=160)
+def add_options(parser):
+    add_common_options(parser, width=160)
     parser.add_argument("--scenes", nargs="+", default=SCENES)
     parser.add_argument("--spp", type=int, default=512, help="of each reference")
-    options = parser.parse_args()
-    lumulus = Lumulus(options)
-    lumulus.sets += size_sets(options.width)
+    parser.add_argument("--fewer", type=int, default=1, help="divide photons by this, to try the study out")
+
+
+def main(options):
+    lumulus = Lumulus.of(options, size_sets(options.width))
     scenes = lumulus.scenes(options.scenes)
-    finish(options, {"bands": table("bands", scenes, by_bands(lumulus, scenes)),
-                     "rest": table("less the noise", scenes, of_the_rest(lumulus, scenes, options.spp))})
-
-
-if __name__ == "__main__":
-    run(main)
+    write_figures(options, {"bands": table("bands", scenes, by_bands(lumulus, scenes)),
+                            "rest": table("less the noise", scenes,
+                                          of_the_rest(lumulus, scenes, options.spp, options.fewer))})

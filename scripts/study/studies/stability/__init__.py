@@ -1,20 +1,25 @@
-"""The stability report: runs stiff and extreme cases through the lumulus executable, writes docs/stability.md."""
+"""Stiff and extreme cases, with what is expected and why. Runs them through the lumulus executable and writes the report
+docs/stability.md; the exit code is 1 where a row fails without a known reason.
 
-import argparse
+    scripts/study/run stability --limit 8 --spp 48
+"""
+
 import os
 import pathlib
-import sys
-import tempfile
 import time
 
-from stability_cases import all_groups
-from stability_tools import Failure, Lumulus, Outcome
-
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from study.lumulus import add_program_option
+from study.program import ROOT, Failure
+from study.studies.stability.fog_cases import fog_cases
+from study.studies.stability.layer_cases import layer_cases
+from study.studies.stability.map_cases import maps
+from study.studies.stability.picture_cases import cameras, fields, furnaces, media, places
+from study.studies.stability.tools import Lumulus, Outcome
+from study.tables import markdown_row
 
 HEAD = """# Stiff and extreme cases
 
-Made by `scripts/stability.sh` (after `scripts/build.sh`); do not edit by hand. Each row runs the executable, with a time
+Made by `scripts/study/run stability` (after `scripts/build.sh`); do not edit by hand. Each row runs the executable, with a time
 limit of {limit:g} s. Every picture of the table is also checked for this: all layers finite; no coefficient saturated;
 no photon lost; photons absorbed and escaped add up to those emitted.
 
@@ -40,65 +45,76 @@ TAIL = """
 """
 
 
-def options():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--lumulus", default=ROOT / "build/release/lumulus", type=pathlib.Path, help="the executable")
+def all_groups(spp):
+    """(title, cases) of each table."""
+    return (("Layers (`lumulus slab`)", layer_cases()), ("White furnace", furnaces()), ("Media", media(spp)),
+            ("Density fields", fields(spp)), ("Shapes and places", places(spp)), ("Cameras and suns", cameras(spp)),
+            ("Photon map", maps(spp)), ("Fog (`lumulus composite`)", fog_cases()))
+
+
+def add_options(parser):
+    add_program_option(parser)
     parser.add_argument("--fixtures", type=pathlib.Path, help="the executable make_vdb_fixtures "
                         "(default: in tests/ beside lumulus)")
     parser.add_argument("--output", default=ROOT / "docs/stability.md", type=pathlib.Path)
     parser.add_argument("--only", default="", metavar="TEXT", help="run only cases whose name or group contains this")
     parser.add_argument("--limit", default=20.0, type=float, help="seconds that one run may take")
     parser.add_argument("--spp", default=128, type=int, help="samples per pixel of references")
-    return parser.parse_args()
 
 
 def run_case(case, lumulus, limit):
-    lumulus.seconds = case.seconds or limit
+    lumulus.limit = case.seconds or limit
     try:
         return case.run(lumulus)
     except Failure as failure:
         return Outcome(str(failure), None, False)
 
 
+def verdict_of(case, outcome):
+    return "holds" if outcome.holds else "off" if case.reason else "fails"
+
+
 def row(case, outcome):
     deviation = "" if outcome.deviation is None else f"{outcome.deviation:+.1f}"
-    verdict = "holds" if outcome.holds else f"**off**: {case.reason}" if case.reason else "**fails**"
-    cells = (case.name, case.expected, outcome.text, deviation, verdict)
-    return "| " + " | ".join(cell.replace("|", "\\|").replace("\n", " ") for cell in cells) + " |"
+    shown = {"holds": "holds", "off": f"**off**: {case.reason}", "fails": "**fails**"}[verdict_of(case, outcome)]
+    cells = (case.name, case.expected, outcome.text, deviation, shown)
+    return markdown_row([cell.replace("|", "\\|").replace("\n", " ") for cell in cells])
 
 
-def main():
-    chosen = options()
-    fixtures = chosen.fixtures or chosen.lumulus.parent / "tests/make_vdb_fixtures"
-    for program in (chosen.lumulus, fixtures):
+def rows_of(title, cases, lumulus, options, counts):
+    """The rows of a table; counts its verdicts."""
+    rows = []
+    for case in cases:
+        if options.only not in title and options.only not in case.name:
+            continue
+        began = time.monotonic()
+        outcome = run_case(case, lumulus, options.limit)
+        verdict = verdict_of(case, outcome)
+        counts[verdict] += 1
+        rows.append(row(case, outcome))
+        print(f"{time.monotonic() - began:5.1f} s  {verdict:5}  {title}: {case.name}: {outcome.text}", flush=True)
+    return rows
+
+
+def main(options):
+    fixtures = options.fixtures or options.lumulus.parent / "tests/make_vdb_fixtures"
+    for program in (options.lumulus, fixtures):
         if not os.access(program, os.X_OK):
-            sys.exit(f"stability: error: no program {program}: build it, or name another (--help)")
-    lines = [HEAD.format(limit=chosen.limit, spp=chosen.spp)]
+            raise Failure(f"no program {program}: build it, or name another (--help)")
+    lines = [HEAD.format(limit=options.limit, spp=options.spp)]
     counts = {"holds": 0, "off": 0, "fails": 0}
     start = time.monotonic()
-    with tempfile.TemporaryDirectory() as folder:
-        lumulus = Lumulus(chosen.lumulus.resolve(), folder, fixtures.resolve(), chosen.limit)
-        for title, cases in all_groups(chosen.spp):
-            rows = []
-            for case in cases:
-                if chosen.only not in title and chosen.only not in case.name:
-                    continue
-                began = time.monotonic()
-                outcome = run_case(case, lumulus, chosen.limit)
-                verdict = "holds" if outcome.holds else "off" if case.reason else "fails"
-                counts[verdict] += 1
-                rows.append(row(case, outcome))
-                print(f"{time.monotonic() - began:5.1f} s  {verdict:5}  {title}: {case.name}: {outcome.text}", flush=True)
-            if rows:
-                lines += [f"\n## {title}\n", "| case | expected, and why | came out | deviation | verdict |",
-                          "|---|---|---|---|---|", *rows]
+    lumulus = Lumulus(options.lumulus.resolve(), fixtures.resolve())
+    for title, cases in all_groups(options.spp):
+        rows = rows_of(title, cases, lumulus, options, counts)
+        if rows:
+            lines += [f"\n## {title}\n", "| case | expected, and why | came out | deviation | verdict |",
+                      "|---|---|---|---|---|", *rows]
+    if not sum(counts.values()):
+        raise Failure(f"no case or group has {options.only!r} in its name")
     lines.append(TAIL)
     lines.append(f"{counts['holds']} rows hold, {counts['off']} are off for a reason that stands beside them, "
                  f"{counts['fails']} fail.")
-    chosen.output.write_text("\n".join(lines) + "\n")
-    print(f"{lines[-1]} {time.monotonic() - start:.0f} s. {chosen.output}")
+    options.output.write_text("\n".join(lines) + "\n")
+    print(f"{lines[-1]} {time.monotonic() - start:.0f} s. {options.output}")
     return 1 if counts["fails"] else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
