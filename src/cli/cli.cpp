@@ -127,6 +127,11 @@ void addCompare(CLI::App& app, CompareOptions& options, Action& action) {
     command->add_option("reference", options.reference, "Reference (.exr)")->required();
     command->add_option("second", options.secondReference,
                         "A second, independent reference, to be free of their noise");
+    command
+        ->add_option("--denominator", options.denominator,
+                     "Picture (.exr) whose squares divide those of errors in relMSE, and whose cloud is compared, for "
+                     "references of few samples; default: the reference")
+        ->check(notEmpty());
     command->add_flag("--json", options.json, "As JSON");
     command->add_option("--diff", options.diff,
                         "Write the difference: false colours (.png) or image - reference (.exr)");

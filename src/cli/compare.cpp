@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -95,6 +96,13 @@ LayeredImage meanOf(LayeredImage a, const LayeredImage& b) {
     return a;
 }
 
+/// A picture that is compared with others of its size. Errors: InputError where it does not fit `image`.
+LayeredImage readComparable(const std::filesystem::path& path, const reference::NamedImage& image) {
+    LayeredImage other = readExr(path);
+    reference::requireComparable(image, {other, path.string()});
+    return other;
+}
+
 }  // namespace
 
 void runCompare(const CompareOptions& options) {
@@ -107,15 +115,17 @@ void runCompare(const CompareOptions& options) {
         checkWritable(options.diff);
     }
     const LayeredImage image = readExr(options.image);
-    LayeredImage truth = readExr(options.reference);
-    reference::requireComparable({image, options.image.string()}, {truth, options.reference.string()});
+    const reference::NamedImage named{image, options.image.string()};
+    LayeredImage truth = readComparable(options.reference, named);
+    std::optional<LayeredImage> chosen;
+    if (!options.denominator.empty()) chosen = readComparable(options.denominator, named);
+    const LayeredImage* denominator = chosen ? &*chosen : nullptr;
     Comparison comparison;
     if (options.secondReference.empty()) {
-        comparison = reference::compare(image, truth);
+        comparison = reference::compare(image, truth, denominator);
     } else {
-        const LayeredImage second = readExr(options.secondReference);
-        reference::requireComparable({image, options.image.string()}, {second, options.secondReference.string()});
-        comparison = reference::compare(image, truth, second);
+        const LayeredImage second = readComparable(options.secondReference, named);
+        comparison = reference::compare(image, truth, second, denominator);
         truth = meanOf(std::move(truth), second);
     }
     const double flip = reference::flipMean(

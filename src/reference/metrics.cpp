@@ -13,7 +13,7 @@ namespace lumulus::reference {
 namespace {
 
 constexpr std::array<const char*, 3> channels{"R", "G", "B"};
-constexpr double relativeFloor = 0.01;  ///< of mean(R)², and of mean(R) for MAPE
+constexpr double relativeFloor = 0.01;  ///< of mean(D)², and of mean(D) for MAPE
 
 /// A layer's value as double, or what stands for it where there is no such layer.
 class Layer {
@@ -41,13 +41,12 @@ struct Channel {
         : radiance(image, name), variance(image, "variance." + name) {}
 };
 
-/// The pixels that count, by the reference's own layers.
-std::vector<std::size_t> comparedPixels(const LayeredImage& reference) {
-    const Layer red(reference, "transmittance.R"), green(reference, "transmittance.G"),
-        blue(reference, "transmittance.B");
+/// The pixels in which `shown` has a cloud and the reference no sun.
+std::vector<std::size_t> comparedPixels(const LayeredImage& shown, const LayeredImage& reference) {
+    const Layer red(shown, "transmittance.R"), green(shown, "transmittance.G"), blue(shown, "transmittance.B");
     const Layer disc(reference, "sun.disc");
     std::vector<std::size_t> pixels;
-    for (std::size_t i = 0; i < reference.pixels(); ++i) {
+    for (std::size_t i = 0; i < shown.pixels(); ++i) {
         const bool cloud = std::min({red.at(i), green.at(i), blue.at(i)}) < 0.999;
         if (cloud && disc.at(i) <= 0.0) pixels.push_back(i);
     }
@@ -90,11 +89,12 @@ struct Sums {
     }
 };
 
-/// Values and variances of one pixel and channel: the picture and one or two references.
+/// Values and variances of one pixel and channel: the picture, one or two references, the denominator.
 struct Point {
     double image, imageVariance;
     double a, aVariance;
     double b, bVariance;
+    double denominator;
     bool twoReferences;
 
     double reference() const { return twoReferences ? 0.5 * (a + b) : a; }
@@ -118,12 +118,12 @@ double ratio(double value, double scale) {
     return value == 0.0 ? 0.0 : value / scale;
 }
 
-void addPoint(Sums& sums, const Point& p, double mean) {
-    const double reference = p.reference(), difference = p.image - reference;
+void addPoint(Sums& sums, const Point& p, double meanDenominator) {
+    const double difference = p.image - p.reference();
     const double deviation = std::sqrt(p.imageVariance + p.referenceVariance());
     const double squareDeviation = std::sqrt(p.squareVariance());
-    const double square = reference * reference + relativeFloor * mean * mean;
-    const double level = std::abs(reference) + relativeFloor * std::abs(mean);
+    const double square = p.denominator * p.denominator + relativeFloor * meanDenominator * meanDenominator;
+    const double level = std::abs(p.denominator) + relativeFloor * std::abs(meanDenominator);
     sums.square.add(p.square(), squareDeviation);
     sums.relative.add(ratio(p.square(), square), ratio(squareDeviation, square));
     sums.signedDifference.add(difference, deviation);
@@ -143,26 +143,45 @@ Measure rootOf(const Measure& square) {
     return root;
 }
 
-Comparison compareAll(const LayeredImage& image, const LayeredImage& a, const LayeredImage& b, bool two) {
-    const std::vector<std::size_t> pixels = comparedPixels(a);
-    std::vector<Channel> images, as, bs;
-    for (const char* name : channels) {
-        images.emplace_back(image, name);
-        as.emplace_back(a, name);
-        bs.emplace_back(b, name);
-    }
+/// Radiance and variance in R, G and B.
+std::vector<Channel> channelsOf(const LayeredImage& image) {
+    std::vector<Channel> result;
+    for (const char* name : channels) result.emplace_back(image, name);
+    return result;
+}
+
+/// The mean over pixels and channels of two pictures' mean.
+double meanRadiance(const std::vector<Channel>& as, const std::vector<Channel>& bs,
+                    const std::vector<std::size_t>& pixels) {
     const double count = 3.0 * static_cast<double>(pixels.size());
     double mean = 0.0;
     for (const std::size_t i : pixels) {
         for (std::size_t c = 0; c < 3; ++c) mean += 0.5 * (as[c].radiance.at(i) + bs[c].radiance.at(i)) / count;
     }
+    return mean;
+}
+
+Comparison compareAll(const LayeredImage& image, const LayeredImage& a, const LayeredImage& b,
+                      const LayeredImage* denominator, bool two) {
+    const std::vector<std::size_t> pixels = comparedPixels(denominator != nullptr ? *denominator : a, a);
+    const std::vector<Channel> images = channelsOf(image), as = channelsOf(a), bs = channelsOf(b);
+    const std::vector<Channel> scales = denominator != nullptr ? channelsOf(*denominator) : std::vector<Channel>{};
+    const double count = 3.0 * static_cast<double>(pixels.size());
+    const double mean = meanRadiance(as, bs, pixels);
+    const double meanDenominator = scales.empty() ? mean : meanRadiance(scales, scales, pixels);
     Sums sums;
     for (const std::size_t i : pixels) {
         for (std::size_t c = 0; c < 3; ++c) {
-            addPoint(sums,
-                     {images[c].radiance.at(i), images[c].variance.at(i), as[c].radiance.at(i), as[c].variance.at(i),
-                      bs[c].radiance.at(i), bs[c].variance.at(i), two},
-                     mean);
+            Point point{images[c].radiance.at(i),
+                        images[c].variance.at(i),
+                        as[c].radiance.at(i),
+                        as[c].variance.at(i),
+                        bs[c].radiance.at(i),
+                        bs[c].variance.at(i),
+                        0.0,
+                        two};
+            point.denominator = scales.empty() ? point.reference() : scales[c].radiance.at(i);
+            addPoint(sums, point, meanDenominator);
         }
         sums.endPixel();
     }
@@ -227,12 +246,13 @@ void requireComparable(const NamedImage& image, const NamedImage& reference) {
     requireNumbers(reference);
 }
 
-Comparison compare(const LayeredImage& image, const LayeredImage& reference) {
-    return compareAll(image, reference, reference, false);
+Comparison compare(const LayeredImage& image, const LayeredImage& reference, const LayeredImage* denominator) {
+    return compareAll(image, reference, reference, denominator, false);
 }
 
-Comparison compare(const LayeredImage& image, const LayeredImage& referenceA, const LayeredImage& referenceB) {
-    return compareAll(image, referenceA, referenceB, true);
+Comparison compare(const LayeredImage& image, const LayeredImage& referenceA, const LayeredImage& referenceB,
+                   const LayeredImage* denominator) {
+    return compareAll(image, referenceA, referenceB, denominator, true);
 }
 
 }  // namespace lumulus::reference

@@ -8,8 +8,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
-from exr_reader import read_exr  # noqa: E402
-from exr_writer import write_exr  # noqa: E402
+from flat_layers import read_exr, write_exr  # noqa: E402
 
 LUMULUS = Path(sys.argv[1]).resolve()
 WIDTH, HEIGHT = 6, 4

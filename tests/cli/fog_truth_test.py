@@ -1,4 +1,4 @@
-"""scripts/fog_truth.py at a size that takes seconds: fog_truth_test.py LUMULUS [unittest arguments]."""
+"""The study fog_truth at a size that takes seconds: fog_truth_test.py LUMULUS [unittest arguments]."""
 
 import math
 import re
@@ -9,14 +9,14 @@ import tempfile
 import unittest
 from pathlib import Path
 
-SCRIPT = Path(__file__).parents[2] / "scripts" / "fog_truth.py"
+RUN = Path(__file__).parents[2] / "scripts/study/run"
 LUMULUS = sys.argv[1]
 
 
 class FogTruth(unittest.TestCase):
     def test_tables_and_picture(self):
         with tempfile.TemporaryDirectory() as folder:
-            result = subprocess.run([sys.executable, SCRIPT, folder, "--lumulus", LUMULUS, "--spp", "4", "--width", "32",
+            result = subprocess.run([sys.executable, RUN, "fog_truth", folder, "--lumulus", LUMULUS, "--spp", "4", "--width", "32",
                                      "--filters", "scatter"], capture_output=True, text=True, timeout=280)
             self.assertEqual(result.returncode, 0, result.stderr)
             rows = re.findall(r"^\| (\d) \| `scatter` \| ([\d.]+) \| (.+?) % ", result.stdout, re.MULTILINE)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 from cli_test import SMALL, CliTest  # noqa: E402
-from exr_reader import read_exr  # noqa: E402
+from flat_layers import read_exr  # noqa: E402
 
 SCENE = """
 [[cloud]]

@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
-from exr_reader import read_exr  # noqa: E402
+from flat_layers import read_exr  # noqa: E402
 
 LUMULUS = Path(sys.argv[1]).resolve()
 

@@ -15,8 +15,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 from cli_test import LUMULUS, SMALL, CliTest  # noqa: E402
-from exr_reader import read_exr  # noqa: E402
-from exr_writer import write_exr  # noqa: E402
+from flat_layers import read_exr, write_exr  # noqa: E402
 
 SCENE = """
 [image]
@@ -192,6 +191,19 @@ class Compare(CliTest):
         self.assertIsNone(found["standard_error"]["rmse"])
         self.assertEqual(read_exr(self.out / "d.exr")[2]["G"], [0.5] * 12)
         self.assertEqual(self.compared(self.image("a.exr"), self.image("b.exr"))["flip"], 0.0)
+
+    def test_another_denominator(self):
+        """Errors of .5 relative to 2 in place of 1, where its own transmittance is below .999."""
+        def double(layers):
+            layers.update({c: [2.0] * 12 for c in "RGB"})
+            layers.update({f"transmittance.{c}": [0.5] * 4 + [1.0] * 8 for c in "RGB"})
+        changed = self.image("a.exr", lambda layers: layers.update({c: [1.5] * 12 for c in "RGB"}))
+        found = self.compared(changed, self.image("b.exr"), "--denominator", self.image("d.exr", double))
+        for name, value in {"pixels": 4, "rmse": 0.5, "relmse": 0.25 / 4.04, "mape": 0.5 / 2.02, "relative_bias": 0.5}.items():
+            self.assertAlmostEqual(found[name], value, 7, name)
+        self.rejected("compare", changed, "b.exr", "--denominator", "missing.exr", says="missing.exr")
+        self.rejected("compare", changed, "b.exr", "--denominator", self.image("wide.exr", width=5), says="4×3 against 5×3")
+        self.rejected("compare", changed, "b.exr", "--denominator", "", says="--denominator")
 
     def test_black(self):
         black = self.image("black.exr", lambda layers: layers.update({c: [0.0] * 12 for c in "RGB"}))

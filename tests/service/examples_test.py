@@ -9,7 +9,7 @@ import unittest
 import numpy
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-from exr_reader import read_exr
+from flat_layers import read_exr
 from server import ServiceTest
 
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "service", "client", "python", "examples")

@@ -11,7 +11,7 @@ import unittest
 import numpy
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-from exr_reader import read_exr
+from flat_layers import read_exr
 from server import LUMULUS, SCENE, Server, ServiceTest
 from lumulus_client import ServiceError
 

@@ -75,6 +75,33 @@ TEST(Compare, HasTheValuesOfTheDefinition) {
     EXPECT_NEAR(result.mape.value, 0.5 * (0.5 / 1.02 + 1.0 / 3.02), 1e-15);
 }
 
+/// The same two pixels, relative to D = 2 and 4 (mean 3), by one reference and by two that lie .5 to either side of it.
+TEST(Compare, DividesByAnotherPictureWhereThereIsOne) {
+    LayeredImage reference = uniform(2, 1, 1.0F), image = uniform(2, 1, 1.5F), denominator = uniform(2, 1, 2.0F);
+    LayeredImage below = reference, above = reference;
+    for (const char* name : {"R", "G", "B"}) {
+        reference.layer(name)[1] = 3.0F;
+        image.layer(name)[1] = 2.0F;
+        denominator.layer(name)[1] = 4.0F;
+        below.layer(name) = {0.5F, 2.5F};
+        above.layer(name) = {1.5F, 3.5F};
+    }
+    const Comparison one = compare(image, reference, &denominator);
+    EXPECT_NEAR(one.relMse.value, 0.5 * (0.25 / (4.0 + 0.09) + 1.0 / (16.0 + 0.09)), 1e-15);
+    EXPECT_NEAR(one.mape.value, 0.5 * (0.5 / 2.03 + 1.0 / 4.03), 1e-15);
+    EXPECT_NEAR(one.rmse.value, std::sqrt((0.25 + 1.0) / 2.0), 1e-15);
+    EXPECT_NEAR(one.relativeBias.value, -0.125, 1e-15);
+    // (1.5 − .5)(1.5 − 1.5) = 0 and (2 − 2.5)(2 − 3.5) = .75
+    const Comparison two = compare(image, below, above, &denominator);
+    EXPECT_NEAR(two.relMse.value, 0.5 * (0.75 / (16.0 + 0.09)), 1e-15);
+
+    for (const char* name : {"transmittance.R", "transmittance.G", "transmittance.B"}) {
+        reference.layer(name, 1.0F)[1] = 0.5F;
+        denominator.layer(name, 1.0F)[0] = 0.5F;
+    }
+    EXPECT_NEAR(compare(image, reference, &denominator).bias.value, 0.5, 1e-15);
+}
+
 TEST(Compare, LooksOnlyAtTheCloudAndNotAtTheSun) {
     LayeredImage reference = uniform(3, 1, 1.0F), image = uniform(3, 1, 1.0F);
     for (const char* name : {"transmittance.R", "transmittance.G", "transmittance.B"}) {
