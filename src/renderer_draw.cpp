@@ -188,14 +188,16 @@ void Renderer::State::drawBands(LayeredImage& image, const std::vector<draw::Ban
         drawBand(image, inputs, lattice, bands[done]);
         told("drawing", done + 1, bands.size());
     }
-    statistics.gpuBytes = context.allocatedBytes();
+    statistics.gpuBytes = context.memory().used;
+    statistics.gpuBytesHeld = context.memory().held;
 }
 
 void Renderer::State::applyFog(LayeredImage& image) {
     report("fog", 0, 1);
     fog::applyToFrame(*fog, image, camera, scene.sky.radiance);
     addTimes(fog->takeTimes());
-    statistics.gpuBytes = context.allocatedBytes();
+    statistics.gpuBytes = context.memory().used;
+    statistics.gpuBytesHeld = context.memory().held;
     report("fog", 1, 1);
 }
 
