@@ -93,7 +93,8 @@ void applyFog(LayeredImage& color, const CompositeOptions& options, const scene:
     fog::Fog fog(context, scene.fog);
     setRadiance(color, fog.apply(layer, camera));
     statistics.device = context.device().name;
-    statistics.gpuBytes = context.allocatedBytes();
+    statistics.gpuBytes = context.memory().used;
+    statistics.gpuBytesHeld = context.memory().held;
     for (const gpu::PassTime& pass : fog.takeTimes()) statistics.passes.push_back({pass.name, pass.milliseconds});
     statistics.validationMessages = context.validationMessages();
 }

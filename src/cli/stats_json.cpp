@@ -34,6 +34,7 @@ std::string statisticsJson(const Statistics& s, const std::optional<ProgressiveS
         {"saturated", s.saturated},
         {"collectors", s.collectors},
         {"gpu_bytes", s.gpuBytes},
+        {"gpu_bytes_held", s.gpuBytesHeld},
         {"passes", passes},
         {"warnings", s.warnings},
         {"validation_messages", s.validationMessages},

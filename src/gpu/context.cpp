@@ -11,6 +11,8 @@ Context::Context(const ContextOptions& options) : instance_(options.validation) 
     const auto makeSampler = [&](VkFilter filter, VkSamplerAddressMode outside) {
         VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
         info.magFilter = info.minFilter = filter;
+        info.mipmapMode = filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+        info.maxLod = VK_LOD_CLAMP_NONE;
         info.addressModeU = info.addressModeV = info.addressModeW = outside;
         info.borderColor = VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
         return create(api_.vkCreateSampler, api_.vkDestroySampler, info, VK_OBJECT_TYPE_SAMPLER, "sampler");
@@ -52,12 +54,7 @@ void Context::openDevice() {
     volkLoadDeviceTable(&api_, device);
     device_.reset(device);
     api_.vkGetDeviceQueue(device, queueFamily_, 0, &queue_);
-}
-
-void Context::setName(VkObjectType type, std::uint64_t object, const std::string& name) const {
-    const VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT, nullptr, type, object,
-                                             name.c_str()};
-    check(vkSetDebugUtilsObjectNameEXT(handle(), &info), "vkSetDebugUtilsObjectNameEXT");
+    allocator_.emplace(physical_, device, api_, maxAllocationBytes_);
 }
 
 CommandBuffer Context::makeCommandBuffer(const std::string& name) const {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <array>
-#include <atomic>
+#include <optional>
 
-#include "gpu/device.h"
+#include "gpu/allocator.h"
 
 namespace lumulus::gpu {
 
@@ -12,7 +12,7 @@ struct ContextOptions {
     bool validation = false;  ///< Khronos validation layer with synchronisation validation
 };
 
-/// How a shader reads an image. Coordinates run from 0 to 1 over the image.
+/// How a shader reads an image. Coordinates run from 0 to 1 over the image; the linear ones also mix mip levels.
 enum class Sampler {
     none,         ///< a storage image: imageLoad and imageStore
     nearest,      ///< outside the image: 0. The only one for integer texels, which have no outside: use texelFetch
@@ -45,8 +45,8 @@ class Context {
     bool isCpu() const { return info_.type == "cpu"; }
     /// Warnings and errors of the validation layer so far.
     std::vector<std::string> validationMessages() const { return instance_.messages(); }
-    /// Bytes of device memory that buffers and images hold now.
-    std::uint64_t allocatedBytes() const { return allocatedBytes_; }
+    /// GPU memory of all buffers and images.
+    MemoryStatistics memory() const { return allocator_->statistics(); }
     /// Since the context was made: the copies of transfer.h, and the pictures that are read from host memory.
     const Transfers& transfers() const { return transfers_; }
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
@@ -56,6 +56,7 @@ class Context {
     VkDevice handle() const { return device_.get(); }
     VkPhysicalDevice physicalDevice() const { return physical_; }
     const VolkDeviceTable& api() const { return api_; }
+    Allocator& allocator() { return *allocator_; }
     /// Null for Sampler::none.
     VkSampler sampler(Sampler kind) const { return samplers_[static_cast<std::size_t>(kind)].get(); }
 
@@ -67,10 +68,9 @@ class Context {
                     std::uint64_t bytes = 0) const {
         T object = VK_NULL_HANDLE;
         checkMemory(make(handle(), &info, nullptr, &object), "making it", name, bytes);
-        setName(type, reinterpret_cast<std::uint64_t>(object), name);
+        setObjectName(handle(), type, reinterpret_cast<std::uint64_t>(object), name);
         return {object, {handle(), destroy}};
     }
-    void setName(VkObjectType type, std::uint64_t object, const std::string& name) const;
 
     CommandBuffer makeCommandBuffer(const std::string& name) const;
     /// Starts to record, ordered by a full barrier after all work submitted before.
@@ -89,9 +89,6 @@ class Context {
         wait(immediate_);
     }
 
-    /// The bookkeeping behind allocatedBytes().
-    void addAllocated(std::uint64_t bytes) { allocatedBytes_ += bytes; }
-    void subtractAllocated(std::uint64_t bytes) { allocatedBytes_ -= bytes; }
     /// The bookkeeping behind transfers().
     void addUploaded(std::uint64_t bytes) { transfers_.uploaded += bytes; }
     void addDownloaded(std::uint64_t bytes) { transfers_.downloaded += bytes; }
@@ -105,7 +102,6 @@ class Context {
     void selectPhysicalDevice(const std::string& wanted);
     void openDevice();
 
-    std::atomic<std::uint64_t> allocatedBytes_ = 0;
     Transfers transfers_;
     Instance instance_;
     DeviceInfo info_;
@@ -116,6 +112,7 @@ class Context {
     std::uint32_t timestampBits_ = 0;
     VolkDeviceTable api_{};
     std::unique_ptr<VkDevice_T, DestroyDevice> device_{nullptr, DestroyDevice{&api_}};
+    std::optional<Allocator> allocator_;
     VkQueue queue_ = VK_NULL_HANDLE;
     CommandBuffer immediate_;
     std::array<Owned<VkSampler>, 4> samplers_;  ///< by Sampler

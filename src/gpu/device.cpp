@@ -109,7 +109,7 @@ bool allows(const std::string& wanted, const DeviceInfo& device) {
 
 /// All else that Image does with its formats, Vulkan promises (with shaderStorageImageExtendedFormats).
 bool filtersWideFloats(VkPhysicalDevice device) {
-    const VkFormat formats[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT};
+    const VkFormat formats[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT};
     return std::ranges::all_of(formats, [&](VkFormat format) {
         VkFormatProperties properties{};
         vkGetPhysicalDeviceFormatProperties(device, format, &properties);
@@ -130,6 +130,12 @@ void checkMemory(VkResult result, const char* call, const std::string& resource,
         throw Error(fmt::format("{} for {} bytes failed with {}", call, bytes, resultName(result)), resource,
                     "use a smaller cloud, fewer photons or a device with more memory");
     check(result, call);
+}
+
+void setObjectName(VkDevice device, VkObjectType type, std::uint64_t object, const std::string& name) {
+    const VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT, nullptr, type, object,
+                                             name.c_str()};
+    check(vkSetDebugUtilsObjectNameEXT(device, &info), "vkSetDebugUtilsObjectNameEXT");
 }
 
 Instance::Instance(bool validation) {

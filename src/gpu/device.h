@@ -16,6 +16,9 @@ void check(VkResult result, const char* call);
 /// As check(), for a call that takes memory: the Error says which resource asked for how many bytes.
 void checkMemory(VkResult result, const char* call, const std::string& resource, std::uint64_t bytes);
 
+/// Names an object of the device in messages of the validation layer and in debuggers.
+void setObjectName(VkDevice device, VkObjectType type, std::uint64_t object, const std::string& name);
+
 template <class T>
 struct Destroy {
     using pointer = T;

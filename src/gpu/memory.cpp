@@ -3,26 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "base/error.h"
-#include "gpu/transfer.h"
 
 namespace lumulus::gpu {
 namespace {
-
-/// The first memory type that fits, with as many of the wanted properties as one has, best wish first.
-std::uint32_t findMemoryType(VkPhysicalDevice device, std::uint32_t allowed, Memory where) {
-    constexpr VkMemoryPropertyFlags host = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    const VkMemoryPropertyFlags hostWishes[] = {host | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, host};
-    const VkMemoryPropertyFlags deviceWishes[] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
-    VkPhysicalDeviceMemoryProperties memory{};
-    vkGetPhysicalDeviceMemoryProperties(device, &memory);
-    for (const VkMemoryPropertyFlags wish : where == Memory::host ? hostWishes : deviceWishes)
-        for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
-            if ((allowed & (1U << i)) != 0 && (memory.memoryTypes[i].propertyFlags & wish) == wish) return i;
-    throw std::logic_error("Vulkan promises a memory type for every buffer and image");
-}
 
 /// The formats that Lumulus uses, with the bytes of a texel.
 constexpr std::pair<VkFormat, std::uint64_t> texelSizes[] = {
@@ -44,57 +29,7 @@ std::uint64_t texelCount(glm::ivec3 extent, const std::string& name) {
 
 constexpr VkImageSubresourceRange allOfIt{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
 
-void requireSize(bool fits, const Resource& resource, std::uint64_t given) {
-    if (fits) return;
-    throw std::logic_error(fmt::format("{} has {} bytes, the transfer {}", resource.name(), resource.bytes(), given));
-}
-
-std::uint64_t sliceBytes(const Image& image) {
-    return image.bytes() / static_cast<std::uint64_t>(image.extent().z);
-}
-
-std::uint64_t pieceBytes(const Image& image) {
-    return std::max<std::uint64_t>(1, stagingBytes / sliceBytes(image)) * sliceBytes(image);
-}
-
-VkBufferImageCopy slices(const Image& image, std::uint64_t offset, std::uint64_t bytes) {
-    const glm::uvec3 extent(image.extent());
-    VkBufferImageCopy region{};
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.imageOffset.z = static_cast<std::int32_t>(offset / sliceBytes(image));
-    region.imageExtent = {extent.x, extent.y, static_cast<std::uint32_t>(bytes / sliceBytes(image))};
-    return region;
-}
-
-/// `copy` records the copy of so many bytes at an offset, from the staging buffer (const bytes) or to it.
-template <class Byte, class Copy>
-void copyPieces(Context& context, std::span<Byte> bytes, std::uint64_t most, const Copy& copy) {
-    const Buffer staging(context, "staging", std::min<std::uint64_t>(bytes.size(), most), Memory::host);
-    std::byte* mapped = staging.mapped<std::byte>().data();
-    for (std::uint64_t offset = 0; offset < bytes.size(); offset += most) {
-        const auto piece = bytes.subspan(offset, std::min<std::uint64_t>(most, bytes.size() - offset));
-        if constexpr (std::is_const_v<Byte>) std::memcpy(mapped, piece.data(), piece.size());
-        context.immediately([&](VkCommandBuffer commands) { copy(commands, staging.handle(), offset, piece.size()); });
-        if constexpr (!std::is_const_v<Byte>) std::memcpy(piece.data(), mapped, piece.size());
-    }
-    if constexpr (std::is_const_v<Byte>)
-        context.addUploaded(bytes.size());
-    else
-        context.addDownloaded(bytes.size());
-}
-
 }  // namespace
-
-Allocation allocate(Context& context, const std::string& resource, const VkMemoryRequirements& needs, Memory where) {
-    const std::uint32_t type = findMemoryType(context.physicalDevice(), needs.memoryTypeBits, where);
-    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size, type};
-    const bool fits = needs.size <= context.maxAllocationBytes();  // some drivers take more, and fail when it is used
-    checkMemory(fits ? VK_SUCCESS : VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkAllocateMemory", resource, needs.size);
-    Owned<VkDeviceMemory> memory = context.create(context.api().vkAllocateMemory, context.api().vkFreeMemory, info,
-                                                  VK_OBJECT_TYPE_DEVICE_MEMORY, resource, needs.size);
-    context.addAllocated(needs.size);
-    return {memory.release(), {&context, needs.size}};
-}
 
 Buffer::Buffer(Context& context, std::string name, std::uint64_t bytes, Memory where)
     : Resource(std::move(name), bytes == 0 ? 16 : bytes) {
@@ -111,11 +46,10 @@ Buffer::Buffer(Context& context, std::string name, std::uint64_t bytes, Memory w
     buffer_ = context.create(api.vkCreateBuffer, api.vkDestroyBuffer, info, VK_OBJECT_TYPE_BUFFER, name_, bytes_);
     VkMemoryRequirements needs{};
     api.vkGetBufferMemoryRequirements(context.handle(), handle(), &needs);
-    allocation_ = allocate(context, name_, needs, where);
-    check(api.vkBindBufferMemory(context.handle(), handle(), allocation_.get(), 0), "vkBindBufferMemory");
-    if (where == Memory::host)
-        checkMemory(api.vkMapMemory(context.handle(), allocation_.get(), 0, VK_WHOLE_SIZE, 0, &mapped_), "vkMapMemory",
-                    name_, bytes_);
+    allocation_ = context.allocator().allocate(name_, needs, where, Tiling::linear);
+    check(api.vkBindBufferMemory(context.handle(), handle(), allocation_->memory(), allocation_->offset),
+          "vkBindBufferMemory");
+    if (where == Memory::host) mapped_ = allocation_->mapped();
 }
 
 Buffer::Buffer(Context& context, std::string name, std::uint64_t count, VkFormat texel, Memory where)
@@ -160,8 +94,9 @@ Image::Image(Context& context, std::string name, glm::ivec3 extent, int dimensio
     image_ = context.create(api.vkCreateImage, api.vkDestroyImage, info, VK_OBJECT_TYPE_IMAGE, name_, bytes_);
     VkMemoryRequirements needs{};
     api.vkGetImageMemoryRequirements(context.handle(), handle(), &needs);
-    allocation_ = allocate(context, name_, needs, Memory::device);
-    check(api.vkBindImageMemory(context.handle(), handle(), allocation_.get(), 0), "vkBindImageMemory");
+    allocation_ = context.allocator().allocate(name_, needs, Memory::device, Tiling::optimal);
+    check(api.vkBindImageMemory(context.handle(), handle(), allocation_->memory(), allocation_->offset),
+          "vkBindImageMemory");
     const VkImageViewType type = dimensions == 3 ? VK_IMAGE_VIEW_TYPE_3D : VK_IMAGE_VIEW_TYPE_2D;
     const VkImageViewCreateInfo viewInfo{
         VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, nullptr, 0, handle(), type, format, {}, allOfIt};
@@ -174,38 +109,6 @@ Image::Image(Context& context, std::string name, glm::ivec3 extent, int dimensio
         barrier.subresourceRange = allOfIt;
         constexpr VkPipelineStageFlags all = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
         api.vkCmdPipelineBarrier(commands, all, all, 0, 0, nullptr, 0, nullptr, 1, &barrier);
-    });
-}
-
-void uploadBytes(Context& context, Buffer& to, std::span<const std::byte> bytes) {
-    requireSize(bytes.size() <= to.bytes(), to, bytes.size());
-    copyPieces(context, bytes, stagingBytes, [&](auto commands, auto staging, auto offset, auto count) {
-        const VkBufferCopy region{0, offset, count};
-        context.api().vkCmdCopyBuffer(commands, staging, to.handle(), 1, &region);
-    });
-}
-
-void downloadBytes(Context& context, const Buffer& from, std::span<std::byte> bytes) {
-    requireSize(bytes.size() <= from.bytes(), from, bytes.size());
-    copyPieces(context, bytes, stagingBytes, [&](auto commands, auto staging, auto offset, auto count) {
-        const VkBufferCopy region{offset, 0, count};
-        context.api().vkCmdCopyBuffer(commands, from.handle(), staging, 1, &region);
-    });
-}
-
-void uploadBytes(Context& context, Image& to, std::span<const std::byte> bytes) {
-    requireSize(bytes.size() == to.bytes(), to, bytes.size());
-    copyPieces(context, bytes, pieceBytes(to), [&](auto commands, auto staging, auto offset, auto count) {
-        const VkBufferImageCopy region = slices(to, offset, count);
-        context.api().vkCmdCopyBufferToImage(commands, staging, to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
-    });
-}
-
-void downloadBytes(Context& context, const Image& from, std::span<std::byte> bytes) {
-    requireSize(bytes.size() == from.bytes(), from, bytes.size());
-    copyPieces(context, bytes, pieceBytes(from), [&](auto commands, auto staging, auto offset, auto count) {
-        const VkBufferImageCopy region = slices(from, offset, count);
-        context.api().vkCmdCopyImageToBuffer(commands, from.handle(), VK_IMAGE_LAYOUT_GENERAL, staging, 1, &region);
     });
 }
 

@@ -8,35 +8,12 @@
 
 namespace lumulus::gpu {
 
-enum class Memory {
-    device,  ///< fast for the GPU; filled and read by transfer.h
-    host     ///< mapped for as long as the buffer lives, coherent; cached where the device has it
-};
-
-struct FreeMemory {
-    using pointer = VkDeviceMemory;
-
-    Context* context = nullptr;
-    std::uint64_t bytes = 0;
-
-    void operator()(VkDeviceMemory memory) const {
-        context->api().vkFreeMemory(context->handle(), memory, nullptr);
-        context->subtractAllocated(bytes);
-    }
-};
-
-/// Device memory of one resource, counted in Context::allocatedBytes().
-using Allocation = std::unique_ptr<VkDeviceMemory_T, FreeMemory>;
-
-/// Errors: Error naming the resource and the bytes where memory runs out.
-Allocation allocate(Context& context, const std::string& resource, const VkMemoryRequirements& needs, Memory where);
-
 /// What buffers and images have in common.
 class Resource {
   public:
     const std::string& name() const { return name_; }
-    /// Unlike that of any other resource that lives: each has memory of its own.
-    std::uint64_t id() const { return reinterpret_cast<std::uint64_t>(allocation_.get()); }
+    /// Differs from that of every other resource of the context, also of those that are gone.
+    std::uint64_t id() const { return allocation_->id; }
     std::uint64_t bytes() const { return bytes_; }  ///< of an image: all texels, tightly packed, x fastest
 
   protected:
@@ -65,13 +42,13 @@ class Buffer : public Resource {
     template <class T>
     std::span<T> mapped() const {
         if (mapped_ == nullptr) throw std::logic_error("buffer " + name_ + " is not host memory");
-        return {static_cast<T*>(mapped_), bytes_ / sizeof(T)};
+        return {reinterpret_cast<T*>(mapped_), bytes_ / sizeof(T)};
     }
 
   private:
     Owned<VkBuffer> buffer_;
     Owned<VkBufferView> texels_;
-    void* mapped_ = nullptr;
+    std::byte* mapped_ = nullptr;
 };
 
 /// A picture (ivec2) or a volume (ivec3) of texels: sampled, stored to and transferred.

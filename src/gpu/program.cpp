@@ -71,7 +71,7 @@ void ProgramBase::createPipeline(Context& context, std::span<const std::uint32_t
     check(api.vkCreateComputePipelines(context.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
           "vkCreateComputePipelines");
     pipeline_ = Owned<VkPipeline>(pipeline, {context.handle(), api.vkDestroyPipeline});
-    context.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), name_);
+    setObjectName(context.handle(), VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), name_);
 }
 
 }  // namespace lumulus::gpu

@@ -142,7 +142,8 @@ LayeredImage Renderer::draw(const View& view, ViewState& viewState) {
     LayeredImage image = order.picture(viewState.state(), view);
     s.statistics.passes.clear();
     addTimes(s.statistics, s.work.times);
-    s.statistics.gpuBytes = s.context.allocatedBytes();
+    s.statistics.gpuBytes = s.context.memory().used;
+    s.statistics.gpuBytesHeld = s.context.memory().held;
     s.statistics.drawSeconds += watch.seconds();
     return image;
 }
@@ -153,7 +154,8 @@ Preview Renderer::preview() {
     s.show(viewState.state(), sceneView());
     PictureOrder order{s.work, *s.world, &*s.painter, nullptr, s.photonMap.bands, s.sunAllowed, s.check, noReport};
     Preview preview = order.preview(viewState.state());
-    s.statistics.gpuBytes = s.context.allocatedBytes();
+    s.statistics.gpuBytes = s.context.memory().used;
+    s.statistics.gpuBytesHeld = s.context.memory().held;
     return preview;
 }
 

@@ -13,8 +13,10 @@ lumulus_shaders(
 lumulus_test(
   gpu_test
   SOURCES
+    ${CMAKE_CURRENT_LIST_DIR}/allocator_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/commands_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/device_test.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/free_list_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/hazards_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/memory_test.cpp
     ${CMAKE_CURRENT_LIST_DIR}/program_test.cpp

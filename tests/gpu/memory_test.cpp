@@ -47,39 +47,39 @@ TEST_F(MemoryTest, ImageAboveTheLimitIsAnErrorWithBothNumbers) {
 
 TEST_F(MemoryTest, RunningOutOfMemoryNamesTheResourceAndTheBytes) {
     const VkMemoryRequirements needs{context.maxAllocationBytes() + 1, 16, ~0U};
-    EXPECT_THAT([&] { allocate(context, "photons", needs, Memory::device); },
+    EXPECT_THAT([&] { context.allocator().allocate("photons", needs, Memory::device, Tiling::linear); },
                 ThrowsMessage<Error>(AllOf(HasSubstr("photons"), HasSubstr(std::to_string(needs.size)),
                                            HasSubstr("VK_ERROR_OUT_OF_DEVICE_MEMORY"))));
 }
 
 TEST_F(MemoryTest, AllocatedBytesFollowTheResources) {
-    const std::uint64_t before = context.allocatedBytes();
+    const std::uint64_t before = context.memory().used;
     {
         Buffer first(context, "first", 1000, Memory::device);
-        const std::uint64_t one = context.allocatedBytes();
+        const std::uint64_t one = context.memory().used;
         EXPECT_GE(one, before + 1000);
         const Buffer moved = std::move(first);
-        EXPECT_EQ(context.allocatedBytes(), one);
+        EXPECT_EQ(context.memory().used, one);
         const Image image(context, "image", glm::ivec3(8, 8, 8), VK_FORMAT_R32_SFLOAT);
-        EXPECT_GE(context.allocatedBytes(), one + 8 * 8 * 8 * 4);
+        EXPECT_GE(context.memory().used, one + 8 * 8 * 8 * 4);
     }
-    EXPECT_EQ(context.allocatedBytes(), before);
+    EXPECT_EQ(context.memory().used, before);
 }
 
 TEST_F(MemoryTest, MoveAssignmentReleasesTheOldMemory) {
-    const std::uint64_t before = context.allocatedBytes();
+    const std::uint64_t before = context.memory().used;
     {
         Buffer target(context, "old", 4096, Memory::device);
         const std::vector<std::uint32_t> values = {7, 8};
         Buffer source(context, "new", 8, Memory::device);
         upload(context, source, values);
-        const std::uint64_t both = context.allocatedBytes();
+        const std::uint64_t both = context.memory().used;
         target = std::move(source);
-        EXPECT_LT(context.allocatedBytes(), both);
+        EXPECT_LT(context.memory().used, both);
         EXPECT_EQ(target.name(), "new");
         EXPECT_EQ(download<std::uint32_t>(context, target), values);
     }
-    EXPECT_EQ(context.allocatedBytes(), before);
+    EXPECT_EQ(context.memory().used, before);
 }
 
 TEST_F(MemoryTest, HostBufferIsMappedAndDeviceBufferIsNot) {

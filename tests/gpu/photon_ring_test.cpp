@@ -128,11 +128,11 @@ TEST_F(PhotonRing, GenerationsDiffer) {
 /// Refused before any memory is taken, with what is needed and what there is.
 TEST_F(PhotonRing, MoreThanTheBudgetIsRefused) {
     const auto refusal = [&](const Options& wanted) -> std::string {
-        const std::uint64_t before = context.allocatedBytes();
+        const std::uint64_t before = context.memory().used;
         try {
             PhotonMap(context, cloud, medium, wanted);
         } catch (const InputError& e) {
-            EXPECT_EQ(context.allocatedBytes(), before);
+            EXPECT_EQ(context.memory().used, before);
             return e.what();
         }
         return "";

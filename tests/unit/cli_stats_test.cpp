@@ -28,6 +28,7 @@ TEST(StatisticsJson, HasEveryNumberUnderItsName) {
     s.saturated = 8;
     s.collectors = 9;
     s.gpuBytes = 10;
+    s.gpuBytesHeld = 11;
     s.passes = {{"trace", 1.25}, {"draw", 2.0}};
     s.warnings = {"odd"};
     const std::string text = statisticsJson(s, {}, 4.5, 12.5);
@@ -40,7 +41,7 @@ TEST(StatisticsJson, HasEveryNumberUnderItsName) {
     EXPECT_EQ(json["photons"].get<std::uint64_t>(), 18446744073709551615ULL);
     int number = 2;
     for (const char* name : {"generations", "events", "null_collisions", "absorbed", "escaped", "lost", "saturated",
-                             "collectors", "gpu_bytes"}) {
+                             "collectors", "gpu_bytes", "gpu_bytes_held"}) {
         EXPECT_EQ(json[name], number++) << name;
     }
     EXPECT_EQ(json["passes"],
