@@ -98,8 +98,9 @@ void tellReached(const RenderOptions& options, const Statistics& statistics, con
         logWarning(fmt::format("{:g} s were too short for this scene: it took {:.2f} s with {} photons",
                                *options.seconds, seconds, statistics.photons));
     if (options.targetError && *options.targetError < reached.biasEstimate)
-        logWarning(fmt::format("the bias of relMSE {:.2g} is larger than the target {:g}, and falls slowly with photons",
-                               reached.biasEstimate, *options.targetError));
+        logWarning(
+            fmt::format("the bias of relMSE {:.2g} is larger than the target {:g}, and falls slowly with photons",
+                        reached.biasEstimate, *options.targetError));
 }
 
 void writeOutputs(const RenderOptions& options, const LayeredImage& image, double exposure, Steps& steps) {
