@@ -65,7 +65,7 @@ struct Asset {
     gpu::Image collectorIndex;  ///< number of the collector of each voxel; the format's largest value: none
     MajorantGrid majorants;     ///< that photons walk through: a single one or one a cell
     gpu::Image majorantImage;
-    MajorantGrid cells;  ///< one a cell always: where a march finds empty space
+    MajorantGrid cells;                   ///< one a cell always: where a march finds empty space
     std::optional<gpu::Image> cellImage;  ///< none where photons walk through the same cells
     std::vector<Sample> samples;
     KdTree tree;
