@@ -1,5 +1,5 @@
 // service.toml: the shipped one, and what is refused.
-#include "service/config.h"
+#include "service/net/config.h"
 
 #include <gtest/gtest.h>
 

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "service/cost_model.h"
-#include "service/encode.h"
-#include "service/noise.h"
-#include "service/resample.h"
+#include "service/protocol/encode.h"
+#include "service/render/cost_model.h"
+#include "service/render/noise.h"
+#include "service/render/resample.h"
 
 namespace lumulus::service {
 namespace {

@@ -1,10 +1,10 @@
 // From JSON to values: what is taken, and what is refused with the name of the field.
-#include "service/requests.h"
+#include "service/protocol/requests.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "service/json_fields.h"
+#include "service/protocol/json_fields.h"
 #include "support/service_messages.h"
 
 namespace lumulus::service {

@@ -1,10 +1,10 @@
 // Which picture comes next: turns, latest wins, streams by rate and change, clients that do not read.
-#include "service/scheduler.h"
+#include "service/render/scheduler.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "service/json_fields.h"
+#include "service/protocol/json_fields.h"
 
 namespace lumulus::service {
 namespace {

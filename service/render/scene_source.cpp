@@ -1,0 +1,68 @@
+#include "service/render/scene_source.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/error.h"
+#include "scene/load.h"
+#include "service/protocol/json_fields.h"
+#include "service/render/scene_slot.h"
+#include "service/values/sha256.h"
+
+namespace lumulus::service {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The text of a named scene, or the one that the client brought.
+std::string textOf(const LoadScene& load, const Config& config) {
+    if (load.name.empty()) return load.toml;
+    const fs::path file = config.scenes / load.name;
+    std::error_code ec;
+    // one answer for what lies elsewhere and what is not there: names tell nothing about the machine
+    if (!liesIn(file, config.scenes) || !fs::is_regular_file(file, ec))
+        throw RequestError("not_found", "there is no scene of this name", "name");
+    return scene::readSceneText(file);
+}
+
+}  // namespace
+
+bool liesIn(const fs::path& file, const fs::path& folder) {
+    std::error_code ec;
+    const fs::path real = fs::weakly_canonical(file, ec);
+    if (ec) return false;
+    const fs::path base = fs::canonical(folder, ec);
+    return !ec && std::ranges::mismatch(base, real).in1 == base.end();
+}
+
+SourcedScene sourceScene(const LoadScene& load, const Config& config, std::uint64_t owner) {
+    if (load.name.find('\0') != std::string::npos)
+        throw RequestError("not_found", "there is no scene of this name", "name");
+    try {
+        const std::string text = textOf(load, config);
+        std::vector<std::string> overrides = load.overrides;
+        if (!load.vdb.empty()) {
+            const fs::path upload = config.uploads / (load.vdb + ".vdb");
+            std::error_code ec;
+            if (!fs::is_regular_file(upload, ec))
+                throw RequestError("not_found", "no such upload is here: send it first", "vdb");
+            overrides.push_back("cloud.0.vdb=\"" + fs::absolute(upload).string() + "\"");
+        }
+        const std::string name = load.name.empty() ? "inline" : load.name;
+        const std::array<fs::path, 2> folders{config.scenes, config.uploads};
+        SourcedScene found;
+        found.scene = scene::parseScene(text, (config.scenes / name).string(), overrides, load.quality, folders);
+        found.scene.source = name;
+        applyLimits(found.scene, config.limits);
+        std::string key = text + '\0' + (load.quality ? std::to_string(static_cast<int>(*load.quality)) : "");
+        for (const std::string& one : overrides) key += '\0' + one;
+        if (load.isPrivate) key += std::string(1, '\0') + "private " + std::to_string(owner);
+        found.key = sha256Hex(std::as_bytes(std::span(key)));
+        return found;
+    } catch (const InputError& e) {
+        throw RequestError("bad_request", e.what());
+    }
+}
+
+}  // namespace lumulus::service
