@@ -7,6 +7,7 @@
 
 #include "base/image.h"
 #include "base/interrupt.h"
+#include "base/pass_time.h"
 #include "base/progress.h"
 #include "draw/picture_view.h"
 #include "scene/scene.h"
@@ -22,11 +23,6 @@ struct RendererOptions {
     /// The photons are not counted beforehand: generations may go on beyond the scene's, and preview() can be asked.
     /// Not with a ring.
     bool progressive = false;
-};
-
-struct PassTime {
-    std::string name;
-    double milliseconds = 0.0;
 };
 
 /// What `--stats` reports.
@@ -96,6 +92,10 @@ class Renderer {
     /// What the ring holds. Changes of light and medium age in with the generations traced from then on; what is drawn
     /// without photons (the sun's first turn, transmittance) changes at once. They need `keepRing`.
     Generations generations() const;
+    /// The sun of now: the scene's until setSun() changes it.
+    const scene::Sun& sun() const;
+    /// Extinction of now as in the scene [1/m]; 0 where the scene has no cloud.
+    double extinction() const;
     /// Both tell whether anything changed.
     /// Errors: InputError where the scene was made without a sun.
     bool setSun(const glm::dvec3& directionTo, const glm::dvec3& irradiance);
@@ -111,6 +111,10 @@ class Renderer {
     bool sharpenSun(double share);
     /// Moves the cloud from where the scene has it [m]; light from infinity does not see it.
     void setOffset(const glm::dvec3& offset);
+    /// Sets the velocity with which the cloud drifts [m/s]. Returns whether it changed.
+    bool setWind(const glm::dvec3& velocity);
+    /// Moves the cloud to where the wind has carried it at this time [s]; at 0 it is where the scene has it.
+    void setTime(double seconds);
 
     Statistics statistics() const;
 

@@ -7,6 +7,7 @@
 #include "draw/sky.h"
 #include "draw/view.h"
 #include "fog/frame.h"
+#include "pass_stage.h"
 #include "renderer_state.h"
 
 namespace lumulus {
@@ -16,7 +17,7 @@ void Renderer::State::addTimes(const std::vector<gpu::PassTime>& times) {
         const auto known = std::find_if(statistics.passes.begin(), statistics.passes.end(),
                                         [&](const PassTime& t) { return t.name == pass.name; });
         if (known == statistics.passes.end())
-            statistics.passes.push_back({pass.name, pass.milliseconds});
+            statistics.passes.push_back({pass.name, pass.milliseconds, stageOf(pass.name)});
         else
             known->milliseconds += pass.milliseconds;
     }

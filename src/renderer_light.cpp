@@ -18,6 +18,14 @@ Generations Renderer::generations() const {
     return result;
 }
 
+const scene::Sun& Renderer::sun() const {
+    return state_->scene.sun;
+}
+
+double Renderer::extinction() const {
+    return state_->scene.clouds.empty() ? 0.0 : state_->scene.clouds[0].extinction;
+}
+
 void Renderer::State::dimSun() {
     sunlight = scene.sun;
     if (fog) sunlight.irradiance *= fog::sunTransmittance(scene.fog, bounds.centre, scene.sun.directionTo);
@@ -87,6 +95,16 @@ void Renderer::setOffset(const glm::dvec3& offset) {
     if (offset == s.offset) return;
     if (s.cloud) s.cloud->toWorld.translation += offset - s.offset;
     s.offset = offset;
+}
+
+bool Renderer::setWind(const glm::dvec3& velocity) {
+    if (velocity == state_->wind) return false;
+    state_->wind = velocity;
+    return true;
+}
+
+void Renderer::setTime(double seconds) {
+    setOffset(seconds * state_->wind);
 }
 
 }  // namespace lumulus

@@ -49,6 +49,7 @@ struct Renderer::State {
     int spacing = 1;  // of the points that it is drawn at; 1: every pixel
     int latticeRowsDrawn = 0;
     glm::dvec3 offset{0.0};
+    glm::dvec3 wind{0.0};  // m/s
 
     // What follows exists only where the scene needs it.
     photon::Medium medium;

@@ -94,7 +94,8 @@ void applyFog(LayeredImage& color, const CompositeOptions& options, const scene:
     setRadiance(color, fog.apply(layer, camera));
     statistics.device = context.device().name;
     statistics.gpuBytes = context.allocatedBytes();
-    for (const gpu::PassTime& pass : fog.takeTimes()) statistics.passes.push_back({pass.name, pass.milliseconds});
+    for (const gpu::PassTime& pass : fog.takeTimes())
+        statistics.passes.push_back({pass.name, pass.milliseconds, Stage::fog});
     statistics.validationMessages = context.validationMessages();
 }
 
