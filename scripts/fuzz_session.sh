@@ -12,7 +12,7 @@ mkdir -p "$build/found"
 
 flags=(-std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined -DGLM_ENABLE_EXPERIMENTAL
        -I. -Isrc -Ishaders -Itests)
-sources=(service/protocol/{frame_fields,json_fields,message,requests,session}.cpp service/values/sha256.cpp
+sources=(service/protocol/{error_reply,frame_fields,json_fields,message,requests,session}.cpp service/values/sha256.cpp
          src/base/text.cpp tests/fuzz/session_fuzz.cpp)
 clang++ "${flags[@]}" "${sources[@]}" -lfmt -lcrypto -o "$build/session_fuzz"
 

@@ -58,49 +58,56 @@ void readListen(ConfigReader& reader, Config& config) {
 }
 
 void readScenes(ConfigReader& reader, Config& config) {
-    config.scenes = reader.path("scenes.folder").value_or(reader.folder() / "scenes");
-    config.uploads = reader.path("scenes.uploads").value_or(cacheFolder() / "lumulus" / "uploads");
-    config.defaultScene = reader.text("scenes.default").value_or("");
-    config.quality = reader.text("scenes.quality").value_or("");
-    config.device = reader.text("scenes.device").value_or("");
-    if (!fs::is_directory(config.scenes))
-        throw InputError("no folder: " + config.scenes.string(), reader.where("scenes.folder"),
+    config.render.scenes = reader.path("scenes.folder").value_or(reader.folder() / "scenes");
+    config.render.uploads = reader.path("scenes.uploads").value_or(cacheFolder() / "lumulus" / "uploads");
+    config.render.defaultScene = reader.text("scenes.default").value_or("");
+    config.render.quality = reader.text("scenes.quality").value_or("");
+    config.render.device = reader.text("scenes.device").value_or("");
+    if (!fs::is_directory(config.render.scenes))
+        throw InputError("no folder: " + config.render.scenes.string(), reader.where("scenes.folder"),
                          "give the folder of the scene files");
-    if (!config.quality.empty() && config.quality != "draft" && config.quality != "interactive" &&
-        config.quality != "final")
-        throw InputError("no such quality: " + config.quality, reader.where("scenes.quality"),
+    if (!config.render.quality.empty() && config.render.quality != "draft" && config.render.quality != "interactive" &&
+        config.render.quality != "final")
+        throw InputError("no such quality: " + config.render.quality, reader.where("scenes.quality"),
                          "give draft, interactive or final");
 }
 
-void readLimits(ConfigReader& reader, Limits& limits) {
-    reader.count("limits.connections", limits.connections, 1, 4096);
-    reader.count("limits.queued_frames", limits.queuedFrames, 1, 1024);
-    reader.count("limits.streams", limits.streams, 1, 1024);
-    reader.count("limits.scenes", limits.scenes, 1, 64);
-    reader.count("limits.unsent_frames", limits.unsentFrames, 1, 64);
-    reader.count("limits.views", limits.requests.views, 1, 256);
-    reader.count("limits.pixels", limits.requests.pixels, 1, 1U << 25U);
-    reader.count("limits.photons_per_generation", limits.photonsPerGeneration, 1, 4'026'531'840U);
-    reader.number("limits.requests_per_second", limits.requestsPerSecond, 1.0, 1e6);
-    reader.number("limits.scene_megabytes", limits.sceneMemory, 1.0, 1e6);
-    reader.number("limits.generation_seconds", limits.generationSeconds, 0.1, 1e5);
-    reader.number("limits.load_seconds", limits.loadSeconds, 0.1, 1e5);
-    reader.number("limits.hello_seconds", limits.helloSeconds, 0.1, 1e5);
-    reader.number("limits.message_seconds", limits.messageSeconds, 0.1, 1e5);
-    reader.number("limits.write_seconds", limits.writeSeconds, 0.1, 1e5);
-    reader.number("limits.idle_seconds", limits.idleSeconds, 0.1, 1e7);
-    reader.number("limits.shutdown_seconds", limits.shutdownSeconds, 0.0, 1e5);
+void readSizes(ConfigReader& reader, Config& config) {
+    RenderLimits& render = config.render.limits;
+    ConnectionLimits& limits = config.limits;
     const auto megabytes = [&](const char* key, std::uint64_t& bytes) {
         double value = static_cast<double>(bytes) / megabyte;
         reader.number(key, value, 0.0, 1e7);
         bytes = static_cast<std::uint64_t>(value * megabyte);
     };
     megabytes("limits.payload_megabytes", limits.messages.payloadBytes);
-    megabytes("limits.upload_megabytes", limits.requests.uploadBytes);
-    megabytes("limits.upload_folder_megabytes", limits.uploadFolderBytes);
+    megabytes("limits.upload_megabytes", render.requests.uploadBytes);
+    megabytes("limits.upload_folder_megabytes", render.uploadFolderBytes);
     std::uint64_t kilobytes = limits.messages.jsonBytes >> 10U;
     reader.count("limits.json_kilobytes", kilobytes, 4, 16384);
     limits.messages.jsonBytes = static_cast<std::uint32_t>(kilobytes << 10U);
+}
+
+void readLimits(ConfigReader& reader, Config& config) {
+    RenderLimits& render = config.render.limits;
+    ConnectionLimits& limits = config.limits;
+    reader.count("limits.connections", limits.connections, 1, 4096);
+    reader.count("limits.queued_frames", render.queuedFrames, 1, 1024);
+    reader.count("limits.streams", render.streams, 1, 1024);
+    reader.count("limits.scenes", render.scenes, 1, 64);
+    reader.count("limits.unsent_frames", render.unsentFrames, 1, 64);
+    reader.count("limits.views", render.requests.views, 1, 256);
+    reader.count("limits.pixels", render.requests.pixels, 1, 1U << 25U);
+    reader.count("limits.photons_per_generation", render.photonsPerGeneration, 1, 4'026'531'840U);
+    reader.number("limits.requests_per_second", limits.requestsPerSecond, 1.0, 1e6);
+    reader.number("limits.scene_megabytes", render.sceneMemory, 1.0, 1e6);
+    reader.number("limits.generation_seconds", render.generationSeconds, 0.1, 1e5);
+    reader.number("limits.load_seconds", render.loadSeconds, 0.1, 1e5);
+    reader.number("limits.hello_seconds", limits.helloSeconds, 0.1, 1e5);
+    reader.number("limits.message_seconds", limits.messageSeconds, 0.1, 1e5);
+    reader.number("limits.write_seconds", limits.writeSeconds, 0.1, 1e5);
+    reader.number("limits.idle_seconds", limits.idleSeconds, 0.1, 1e7);
+    reader.number("limits.shutdown_seconds", render.shutdownSeconds, 0.0, 1e5);
 }
 
 void requireTokenBeyondLoopback(const Config& config, const std::string& where) {
@@ -144,7 +151,8 @@ Config loadConfig(const fs::path& path) {
     readListen(reader, config);
     readScenes(reader, config);
     if (const auto token = reader.path("security.token_file")) config.token = readToken(*token);
-    readLimits(reader, config.limits);
+    readSizes(reader, config);
+    readLimits(reader, config);
     reader.finish();
     requireTokenBeyondLoopback(config, path.string());
     if (config.tcp.empty() && config.http.empty() && config.unixSocket.empty())

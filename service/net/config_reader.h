@@ -16,13 +16,13 @@ class ConfigReader {
   public:
     explicit ConfigReader(const std::filesystem::path& path);
 
-    /// Of the file: relative paths start here.
+    /// Folder of the file, at which relative paths start.
     const std::filesystem::path& folder() const { return folder_; }
-    /// "service.toml:14, listen.tcp"
+    /// The place of a key for error messages: "service.toml:14, listen.tcp".
     std::string where(const std::string& key) const;
 
     std::optional<std::string> text(const std::string& key);
-    /// Absent where the text is empty.
+    /// A path, made absolute; absent where the text is empty.
     std::optional<std::filesystem::path> path(const std::string& key);
     void number(const std::string& key, double& value, double low, double high);
     template <std::unsigned_integral Count>

@@ -14,13 +14,13 @@ class FrameServer {
   public:
     FrameServer(asio::io_context& io, Hub& hub);
 
-    /// Begin to accept. Errors: InputError where the address or the path is taken or not to be had.
+    /// Begins to accept connections. Errors: InputError where the address or the path is taken or cannot be used.
     void listenTcp(const TcpAddress& address);
-    /// A socket that a killed server left is replaced; one that a server answers on is not.
+    /// The same on a Unix socket. One that a killed server left is replaced; one on which a server answers is an error.
     void listenUnix(const std::filesystem::path& path, unsigned mode);
-    /// "127.0.0.1:7788", "unix:/run/…"
+    /// Where it listens, as "127.0.0.1:7788" or "unix:/run/…".
     const std::vector<std::string>& addresses() const { return addresses_; }
-    /// Stops to accept, and removes the Unix socket.
+    /// Stops accepting connections, and removes the Unix socket.
     void close();
 
   private:
@@ -32,10 +32,10 @@ class FrameServer {
     std::filesystem::path socketPath_;
 };
 
-/// A listening socket. Errors: InputError.
+/// Makes a listening socket. Errors: InputError.
 Tcp::acceptor makeAcceptor(asio::io_context& io, const TcpAddress& address);
 
-/// "127.0.0.1:7788"
+/// An address as text: "127.0.0.1:7788".
 std::string addressText(const Tcp::endpoint& endpoint);
 
 }  // namespace lumulus::service

@@ -8,7 +8,7 @@
 
 namespace lumulus::service {
 
-/// What a GET is answered with.
+/// The answer to a GET.
 struct HttpReply {
     int status = 200;
     std::string_view type;  ///< content type
@@ -22,7 +22,8 @@ struct HttpQuestion {
     std::string_view authorization;  ///< "Bearer …"
 };
 
-/// The page's files, /health and /metrics (which takes the token, where there is one, as `Authorization: Bearer`).
+/// Answers with the page's files, /health or /metrics. The latter asks for the token, where there is one, as
+/// `Authorization: Bearer`.
 HttpReply httpReply(const HttpQuestion& question, const Config& config, const Metrics& metrics);
 
 /// Whether a browser may speak to this server: its Host is a number, localhost or one of the configured names (or a

@@ -13,9 +13,9 @@ class HttpServer {
   public:
     HttpServer(asio::io_context& io, Hub& hub);
 
-    /// Errors: InputError where the address is taken or not to be had.
+    /// Begins to accept connections. Errors: InputError where the address is taken or cannot be used.
     void listen(const TcpAddress& address);
-    /// "127.0.0.1:7789"; empty where it does not listen.
+    /// Where it listens, as "127.0.0.1:7789"; empty where it does not.
     const std::string& address() const { return address_; }
     void close();
 

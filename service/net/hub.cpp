@@ -2,31 +2,21 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/version.h"
-#include "service/protocol/json_fields.h"
+#include "service/protocol/error_reply.h"
+#include "service/protocol/replies.h"
 #include "service/telemetry/event_log.h"
+#include "service/values/request_error.h"
 
 namespace lumulus::service {
-
-using nlohmann::json;
 
 namespace {
 
 SessionPolicy policyOf(const Config& config) {
-    const Limits& limits = config.limits;
-    const json welcome{{"version", protocolVersion},
-                       {"software", std::string("lumulus ") + version},
-                       {"scene", config.defaultScene},
-                       {"quality", config.quality},
-                       {"limits",
-                        {{"json_bytes", limits.messages.jsonBytes},
-                         {"payload_bytes", limits.messages.payloadBytes},
-                         {"pixels", limits.requests.pixels},
-                         {"views", limits.requests.views},
-                         {"upload_bytes", limits.requests.uploadBytes},
-                         {"streams", limits.streams},
-                         {"queued_frames", limits.queuedFrames}}}};
-    return {config.token, welcome.dump(), limits.messages, limits.requests};
+    const RenderLimits& limits = config.render.limits;
+    const MessageLimits& messages = config.limits.messages;
+    const Welcome welcome{config.render.defaultScene, config.render.quality, messages, limits.requests, limits.streams,
+                          limits.queuedFrames};
+    return {config.token, welcomeText(welcome), messages, limits.requests};
 }
 
 }  // namespace
@@ -35,8 +25,8 @@ Hub::Hub(const Config& config, Post post)
     : config_(config),
       policy_(policyOf(config)),
       post_(std::move(post)),
-      uploads_(config.uploads, config.limits.uploadFolderBytes),
-      service_(config, metrics_, [this](ClientId client, Message reply, bool frame) {
+      uploads_(config.render.uploads, config.render.limits.uploadFolderBytes),
+      bridge_(config.render, metrics_, [this](ClientId client, Message reply, bool frame) {
           // std::function wants what can be copied
           auto shared = std::make_shared<Message>(std::move(reply));
           post_([this, client, shared, frame] { deliver(client, std::move(*shared), frame); });
@@ -50,7 +40,7 @@ std::shared_ptr<Peer> Hub::open(const std::string& from, std::function<void()> w
     const ClientId client = nextClient_++;
     auto peer = std::make_shared<Peer>(client, from, policy_, config_.limits, std::move(wake));
     peers_[client] = peer;
-    service_.addClient(client);
+    bridge_.service().addClient(client);
     metrics_.add(Metrics::connectionsOpened);
     metrics_.set(Metrics::connectionsOpen, static_cast<std::int64_t>(peers_.size()));
     logEvent("info", "connected", {{"client", client}, {"from", from}});
@@ -60,7 +50,7 @@ std::shared_ptr<Peer> Hub::open(const std::string& from, std::function<void()> w
 void Hub::close(const std::shared_ptr<Peer>& peer, const std::string& why) {
     if (peers_.erase(peer->client()) == 0) return;
     peer->closeNow();
-    service_.removeClient(peer->client());
+    bridge_.service().removeClient(peer->client());
     uploads_.dropClient(peer->client());
     if (!peer->greeted()) metrics_.add(Metrics::tokensRefused);
     metrics_.set(Metrics::connectionsOpen, static_cast<std::int64_t>(peers_.size()));
@@ -91,11 +81,11 @@ void Hub::dispatch(Peer& peer, Incoming incoming) {
             peer.enqueue(upload(peer, id, *chunk), false);
             peer.ended(id);
         } else if (std::holds_alternative<StatisticsRequest>(incoming.request)) {
-            peer.enqueue({replyTo(MessageType::statistics), id, service_.statistics(peer.client()).dump(), {}}, false);
+            peer.enqueue(statisticsReply(id, metrics_.values(), bridge_.service().sceneState(peer.client())), false);
             peer.ended(id);
-        } else {
-            if (const auto* stop = std::get_if<StopStream>(&incoming.request)) peer.ended(stop->stream);
-            service_.submit(peer.client(), id, std::move(incoming.request));
+        } else if (auto request = renderRequest(std::move(incoming.request))) {
+            if (const auto* stop = std::get_if<StopStream>(&*request)) peer.ended(stop->stream);
+            bridge_.service().submit(peer.client(), id, std::move(*request));
         }
     } catch (const RequestError& e) {
         if (!known) peer.ended(id);
@@ -108,10 +98,7 @@ Message Hub::upload(Peer& peer, std::uint64_t id, const Upload& chunk) {
     try {
         const UploadStore::Progress progress = uploads_.receive(peer.client(), chunk);
         if (progress.complete) metrics_.add(Metrics::uploadsCompleted);
-        return {replyTo(MessageType::upload),
-                id,
-                json{{"received", progress.received}, {"complete", progress.complete}}.dump(),
-                {}};
+        return uploadReply(id, progress.received, progress.complete);
     } catch (const RequestError& e) {
         metrics_.add(Metrics::uploadsFailed);
         logEvent("warning", "upload_failed", {{"client", peer.client()}, {"code", e.code}, {"message", e.what()}});
@@ -129,7 +116,7 @@ void Hub::deliver(ClientId client, Message reply, bool frame) {
 void Hub::sent(Peer& peer, std::size_t bytes, bool complete) {
     metrics_.add(Metrics::bytesSent, static_cast<std::int64_t>(bytes));
     const auto out = peer.wrote(complete, Clock::now());
-    if (out && out->frame) service_.frameSent(peer.client());
+    if (out && out->frame) bridge_.service().frameSent(peer.client());
 }
 
 void Hub::watch(Clock::time_point now) {

@@ -7,14 +7,14 @@
 
 #include "service/net/config.h"
 #include "service/net/peer.h"
+#include "service/net/render_bridge.h"
 #include "service/protocol/session.h"
-#include "service/render/render_service.h"
 #include "service/render/upload_store.h"
 #include "service/telemetry/metrics.h"
 
 namespace lumulus::service {
 
-/// What all connections share, on the one thread of the sockets: who is there, and who answers which request.
+/// Knows all connections, and passes their requests to those who answer them. Lives on the one thread of the sockets.
 class Hub {
   public:
     /// Runs a function later, on the thread of the sockets; called from any thread.
@@ -23,27 +23,27 @@ class Hub {
     /// Errors: InputError and Error of the default scene and the folder of uploads.
     Hub(const Config& config, Post post);
 
-    /// A new connection; null where there are too many, or the service ends. `wake` is called when there is something
-    /// to write or the connection is to end.
+    /// Opens a connection. Returns null where there are too many, or the service ends. `wake` is called when there is
+    /// something to write, and when the connection has to end.
     std::shared_ptr<Peer> open(const std::string& from, std::function<void()> wake);
     void close(const std::shared_ptr<Peer>& peer, const std::string& why);
     /// Takes bytes from a peer and answers what they ask for.
     void received(Peer& peer, std::span<const std::byte> bytes);
-    /// What the peer was given first has left.
+    /// Notes that bytes of the message which the peer was given first have left; `complete`: all of them.
     void sent(Peer& peer, std::size_t bytes, bool complete);
 
     /// Ends connections that are slow or silent.
     void watch(Clock::time_point now);
     std::size_t connections() const { return peers_.size(); }
-    /// Connections that speak HTTP count too.
+    /// Whether no connection can be opened. Those that speak HTTP count too.
     bool full() const { return closing_ || peers_.size() + *others_ >= config_.limits.connections; }
-    /// For connections that may outlive this: each adds one as long as it lives.
+    /// The number of HTTP connections: each adds one as long as it lives, and may outlive the hub.
     std::shared_ptr<std::size_t> others() { return others_; }
 
-    /// From another thread: see RenderService::shutDown.
-    void finishWork() { service_.shutDown(); }
+    /// Calls RenderService::shutDown. From another thread.
+    void finishWork() { bridge_.service().shutDown(); }
     void refuseNew() { closing_ = true; }
-    /// Every connection ends when it has been sent what waits for it.
+    /// Ends every connection when the messages that wait for it have left.
     void closeAll();
 
     const Config& config() const { return config_; }
@@ -63,7 +63,7 @@ class Hub {
     ClientId nextClient_ = 1;
     std::shared_ptr<std::size_t> others_ = std::make_shared<std::size_t>(0);
     bool closing_ = false;
-    RenderService service_;  // last: its threads end first
+    RenderBridge bridge_;  // last: its threads end first
 };
 
 }  // namespace lumulus::service

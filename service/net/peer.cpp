@@ -16,7 +16,7 @@ double secondsBetween(Clock::time_point from, Clock::time_point to) {
 
 }  // namespace
 
-Peer::Peer(ClientId client, std::string from, const SessionPolicy& policy, const Limits& limits,
+Peer::Peer(ClientId client, std::string from, const SessionPolicy& policy, const ConnectionLimits& limits,
            std::function<void()> wake)
     : client_(client),
       from_(std::move(from)),

@@ -10,7 +10,6 @@
 
 #include "service/net/config.h"
 #include "service/protocol/session.h"
-#include "service/render/scheduler.h"
 
 namespace lumulus::service {
 
@@ -20,50 +19,51 @@ struct Outgoing {
     bool frame = false;
 };
 
-/// One connection, whatever it runs over: its session, what waits to be written, and how long it has been slow. The
-/// transport reads and writes; nothing here blocks.
+/// One connection, whatever it runs over: its session, the messages that wait to be written, and how long it has been
+/// slow. The transport reads and writes; nothing here blocks.
 class Peer {
   public:
-    Peer(ClientId client, std::string from, const SessionPolicy& policy, const Limits& limits,
+    Peer(ClientId client, std::string from, const SessionPolicy& policy, const ConnectionLimits& limits,
          std::function<void()> wake);
 
     ClientId client() const { return client_; }
     /// Its address, for the log.
     const std::string& from() const { return from_; }
 
-    /// For the Hub: bytes to requests, with the clock of rates and timeouts.
+    /// Makes requests of bytes, and keeps the clocks of rates and timeouts. For the Hub.
     Session::Result receive(std::span<const std::byte> bytes, Clock::time_point now);
     bool greeted() const { return session_.greeted(); }
     const std::string& name() const { return session_.client(); }
 
     void enqueue(Message message, bool frame);
-    /// What is to be written next; null where nothing waits.
+    /// The message to be written next; null where none waits.
     const Outgoing* next() const { return outbox_.empty() ? nullptr : &outbox_.front(); }
-    /// Tells that bytes of next() have left; `complete`: all of it, which is returned.
+    /// Notes that bytes of next() have left. Where it is `complete`, it is removed and returned.
     std::optional<Outgoing> wrote(bool complete, Clock::time_point now);
 
-    /// No more input is taken until something was written, or until a moment has passed.
+    /// Whether so much waits to be written that no more input may be taken.
     bool overfull() const;
+    /// How long no more input may be taken, for a client that sends too many requests.
     Clock::duration pause(Clock::time_point now) const;
 
-    /// The connection ends when what waits has been written, or at once.
+    /// End the connection when the waiting messages have been written, or at once.
     void closeAfterWriting();
     void closeNow();
     bool finished() const { return closed_ || (closing_ && outbox_.empty()); }
     bool closing() const { return closing_ || closed_; }
 
-    /// Why it has to end, if it has.
+    /// Why the connection has to end; none where it may go on.
     std::optional<std::string> timedOut(Clock::time_point now) const;
 
-    /// Requests that have not been answered, and streams; they keep the connection from being idle.
-    /// False where this id is under way already.
+    /// Note the begin and the end of a request or a stream. While one is open, the connection is not idle. began()
+    /// returns false where this id is open already.
     bool began(std::uint64_t id) { return open_.insert(id).second; }
     void ended(std::uint64_t id) { open_.erase(id); }
 
   private:
     ClientId client_;
     std::string from_;
-    const Limits& limits_;
+    const ConnectionLimits& limits_;
     std::function<void()> wake_;
     Session session_;
     std::deque<Outgoing> outbox_;

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "base/exr.h"
@@ -13,6 +12,7 @@
 #include "base/png.h"
 #include "base/tonemap.h"
 #include "service/protocol/half_pixels.h"
+#include "service/values/sha256.h"
 
 namespace lumulus::service {
 
@@ -74,7 +74,7 @@ json appendProduct(const LayeredImage& image, Product product, bool half, std::v
 }
 
 std::vector<std::byte> pictureFile(const LayeredImage& image, const EncodeOptions& options) {
-    if (options.encoding == Encoding::exr) {
+    if (options.format.encoding == Encoding::exr) {
         LayeredImage wanted;
         wanted.width = image.width;
         wanted.height = image.height;
@@ -83,9 +83,9 @@ std::vector<std::byte> pictureFile(const LayeredImage& image, const EncodeOption
             for (const char* name : layersOf(product).layers) wanted.layers[name] = image.layers.at(name);
         return encodeExr(wanted, "frame");
     }
-    const auto rgb = toneMap(image, options.exposure);
-    if (options.encoding == Encoding::png) return encodePng(image.width, image.height, rgb);
-    return encodeJpeg(image.width, image.height, rgb, options.quality);
+    const auto rgb = toneMap(image, options.format.exposure.value_or(options.exposure));
+    if (options.format.encoding == Encoding::png) return encodePng(image.width, image.height, rgb);
+    return encodeJpeg(image.width, image.height, rgb, options.format.quality);
 }
 
 }  // namespace
@@ -95,20 +95,27 @@ const char* encodingName(Encoding encoding) {
     return names.at(static_cast<std::size_t>(encoding));
 }
 
-json appendView(const LayeredImage& image, const EncodeOptions& options, std::vector<std::byte>& payload) {
+void appendPicture(const LayeredImage& image, const EncodeOptions& options, EncodedPictures& pictures) {
+    const Encoding encoding = options.format.encoding;
+    std::vector<std::byte>& payload = pictures.payload;
     json view{{"width", image.width}, {"height", image.height}};
-    if (options.encoding == Encoding::half || options.encoding == Encoding::raw) {
+    if (encoding == Encoding::half || encoding == Encoding::raw) {
         view["products"] = json::array();
         for (const Product product : options.products)
-            view["products"].push_back(appendProduct(image, product, options.encoding == Encoding::half, payload));
-        return view;
+            view["products"].push_back(appendProduct(image, product, encoding == Encoding::half, payload));
+    } else {
+        const std::vector<std::byte> file = pictureFile(image, options);
+        view["type"] = encodingName(encoding);
+        view["offset"] = payload.size();
+        view["bytes"] = file.size();
+        payload.insert(payload.end(), file.begin(), file.end());
     }
-    const std::vector<std::byte> file = pictureFile(image, options);
-    view["type"] = encodingName(options.encoding);
-    view["offset"] = payload.size();
-    view["bytes"] = file.size();
-    payload.insert(payload.end(), file.begin(), file.end());
-    return view;
+    pictures.views.push_back(std::move(view));
+    pictures.pixels += image.pixels();
+}
+
+void hashPayload(EncodedPictures& pictures) {
+    pictures.hash = "sha256:" + sha256Hex(pictures.payload);
 }
 
 }  // namespace lumulus::service

@@ -164,8 +164,8 @@ LightChange readLight(JsonFields& fields) {
     return light;
 }
 
-EncodingFields readEncoding(JsonFields& fields) {
-    EncodingFields result;
+PictureFormat readFormat(JsonFields& fields) {
+    PictureFormat result;
     if (const auto choice = fields.choice("encoding", {"half", "float", "exr", "png", "jpeg"}))
         result.encoding = static_cast<Encoding>(*choice);
     result.quality = static_cast<int>(fields.integer("quality", 1, 100).value_or(result.quality));
@@ -183,12 +183,9 @@ FrameRequest readFrame(JsonFields& fields, const RequestLimits& limits) {
     frame.light = readLight(fields);
     frame.budget = readBudget(fields);
     frame.products = readProducts(fields);
-    const EncodingFields encoding = readEncoding(fields);
-    frame.encoding = encoding.encoding;
-    frame.quality = encoding.quality;
-    frame.exposure = encoding.exposure;
-    frame.hash = encoding.hash;
-    const bool forPeople = frame.encoding == Encoding::png || frame.encoding == Encoding::jpeg;
+    frame.format = readFormat(fields);
+    const Encoding encoding = frame.format.encoding;
+    const bool forPeople = encoding == Encoding::png || encoding == Encoding::jpeg;
     if (forPeople && frame.products != std::vector{Product::color})
         throw RequestError("bad_request", "png and jpeg hold color alone", fields.place("products"));
     return frame;

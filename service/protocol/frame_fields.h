@@ -1,22 +1,16 @@
 #pragma once
 
 #include "service/protocol/json_fields.h"
-#include "service/protocol/requests.h"
+#include "service/values/requests.h"
 
 namespace lumulus::service {
 
-/// The parts of requests that speak of pictures. Errors: RequestError.
+/// Read the fields of a request that describe pictures. Errors: RequestError.
 CameraRequest readCamera(JsonFields& fields);
 LightChange readLight(JsonFields& fields);
 FrameRequest readFrame(JsonFields& fields, const RequestLimits& limits);
 
 /// Fields `encoding`, `quality`, `exposure`, `hash`.
-struct EncodingFields {
-    Encoding encoding = Encoding::half;
-    int quality = 85;
-    std::optional<double> exposure;
-    bool hash = true;
-};
-EncodingFields readEncoding(JsonFields& fields);
+PictureFormat readFormat(JsonFields& fields);
 
 }  // namespace lumulus::service

@@ -14,23 +14,41 @@ namespace {
 
 constexpr int deepest = 16;
 
-/// The parser would build what it reads; its depth shows before, from the brackets outside of strings.
-bool nestsTooDeep(std::string_view text) {
-    int depth = 0;
-    bool quoted = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (quoted && c == '\\') {
-            ++i;
-        } else if (c == '"') {
-            quoted = !quoted;
-        } else if (!quoted && (c == '[' || c == '{')) {
-            if (++depth > deepest) return true;
-        } else if (!quoted && (c == ']' || c == '}')) {
-            --depth;
-        }
+/// Reads JSON without building it, as far as it nests no deeper than allowed. (A parse callback would do that while the
+/// values are built, but for each object that ends it looks through all of its parent's: 64 KiB of small objects in a
+/// list take over a second.)
+class DepthCheck : public nlohmann::json_sax<json> {
+  public:
+    bool tooDeep() const { return depth_ > deepest; }
+
+    bool null() override { return true; }
+    bool boolean(bool) override { return true; }
+    bool number_integer(number_integer_t) override { return true; }
+    bool number_unsigned(number_unsigned_t) override { return true; }
+    bool number_float(number_float_t, const string_t&) override { return true; }
+    bool string(string_t&) override { return true; }
+    bool binary(binary_t&) override { return true; }
+    bool key(string_t&) override { return true; }
+    bool start_object(std::size_t) override { return ++depth_ <= deepest; }
+    bool start_array(std::size_t) override { return ++depth_ <= deepest; }
+    bool end_object() override { return leave(); }
+    bool end_array() override { return leave(); }
+    /// Syntax is judged by whoever builds the values.
+    bool parse_error(std::size_t, const std::string&, const json::exception&) override { return false; }
+
+  private:
+    bool leave() {
+        --depth_;
+        return true;
     }
-    return false;
+
+    int depth_ = 0;
+};
+
+bool nestsTooDeep(std::string_view text) {
+    DepthCheck check;
+    json::sax_parse(text, &check);
+    return check.tooDeep();
 }
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
@@ -107,6 +125,26 @@ std::optional<std::string> JsonFields::text(const char* name, std::size_t longes
     const json* value = find(name);
     if (value == nullptr) return std::nullopt;
     return shortText(*value, place(name), longest);
+}
+
+std::string JsonFields::requiredText(const char* name, std::size_t longest) {
+    auto given = text(name, longest);
+    if (!given) refuse(place(name), "is missing");
+    return *given;
+}
+
+std::uint64_t JsonFields::requiredCount(const char* name, std::uint64_t most) {
+    const auto given = integer(name, 0, static_cast<std::int64_t>(most));
+    if (!given) refuse(place(name), "is missing");
+    return static_cast<std::uint64_t>(*given);
+}
+
+std::optional<std::variant<std::uint32_t, std::string>> JsonFields::indexOrName(const char* name, std::uint32_t most,
+                                                                                std::size_t longest) {
+    const json* value = find(name);
+    if (value == nullptr) return std::nullopt;
+    if (value->is_string()) return shortText(*value, place(name), longest);
+    return static_cast<std::uint32_t>(*integer(name, 0, most));
 }
 
 std::optional<std::size_t> JsonFields::choice(const char* name, std::initializer_list<std::string_view> choices) {

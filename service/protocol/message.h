@@ -33,7 +33,7 @@ enum class MessageType : std::uint16_t {
 };
 inline constexpr std::uint16_t replyBit = 0x8000;
 
-/// "frame", "start_stream", …; "unknown" for a number that is no type.
+/// The name of a type: "frame", "start_stream", …; "unknown" for a number that is no type.
 const char* messageName(MessageType type);
 
 constexpr MessageType replyTo(MessageType request) {
@@ -59,7 +59,7 @@ struct Message {
     bool operator==(const Message&) const = default;
 };
 
-/// What is wrong with bytes so that nothing after them can be trusted: the connection ends with it.
+/// Thrown where bytes break the framing, so that none after them can be trusted: the connection ends with it.
 class FramingError : public std::runtime_error {
   public:
     FramingError(std::string errorCode, std::uint64_t requestId, const std::string& text)
@@ -70,20 +70,20 @@ class FramingError : public std::runtime_error {
 
 std::array<std::byte, headerBytes> encodeHeader(const MessageHeader& header);
 
-/// Errors: FramingError for another magic or version, and for reserved bits that are set.
+/// Reads a header. Errors: FramingError for another magic or version, and for reserved bits that are set.
 MessageHeader decodeHeader(std::span<const std::byte, headerBytes> bytes);
 
-/// Header and JSON of a message, the part before the payload.
+/// Encodes header and JSON of a message: the part before the payload.
 std::vector<std::byte> encodeHead(const Message& message);
 
-/// What a message may be at most.
+/// The largest message that is taken.
 struct MessageLimits {
     std::uint32_t jsonBytes = 1U << 16U;
     std::uint64_t payloadBytes = std::uint64_t{64} << 20U;
 };
 
-/// Takes bytes in pieces of any size and gives messages back. Holds no more than one message and what has arrived of
-/// it; what a header claims is never reserved before it comes.
+/// Takes bytes in pieces of any size and gives messages back. Holds one message at most, as far as it has arrived;
+/// memory for the lengths that a header claims is never reserved before the bytes come.
 class MessageReader {
   public:
     explicit MessageReader(MessageLimits limits) : limits_(limits) {}

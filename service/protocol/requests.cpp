@@ -16,18 +16,6 @@ namespace {
 
 constexpr std::size_t longestName = 200, longestOverride = 1000, mostOverrides = 64;
 
-std::string required(JsonFields& fields, const char* name, std::size_t longest) {
-    auto text = fields.text(name, longest);
-    if (!text) throw RequestError("bad_request", fields.place(name) + " is missing", fields.place(name));
-    return *text;
-}
-
-std::uint64_t requiredCount(JsonFields& fields, const char* name, std::uint64_t most) {
-    const auto value = fields.integer(name, 0, static_cast<std::int64_t>(most));
-    if (!value) throw RequestError("bad_request", fields.place(name) + " is missing", fields.place(name));
-    return static_cast<std::uint64_t>(*value);
-}
-
 Hello readHello(JsonFields& fields) {
     const auto version = fields.integer("version", 0, 65535);
     if (version.value_or(protocolVersion) != protocolVersion)
@@ -55,14 +43,14 @@ LoadScene readLoadScene(JsonFields& fields, const std::vector<std::byte>& payloa
 
 Upload readUpload(JsonFields& fields, std::vector<std::byte> payload, const RequestLimits& limits) {
     Upload upload;
-    upload.hash = required(fields, "hash", longestName);
+    upload.hash = fields.requiredText("hash", longestName);
     if (!isHash(upload.hash))
         throw RequestError("bad_request", "hash must be 64 hexadecimal digits in lower case", "hash");
-    upload.size = requiredCount(fields, "size", std::uint64_t{1} << 53U);
+    upload.size = fields.requiredCount("size", std::uint64_t{1} << 53U);
     if (upload.size > limits.uploadBytes)
         throw RequestError("too_large", "an upload may hold " + std::to_string(limits.uploadBytes) + " bytes here",
                            "size");
-    upload.offset = requiredCount(fields, "offset", std::uint64_t{1} << 53U);
+    upload.offset = fields.requiredCount("offset", std::uint64_t{1} << 53U);
     upload.bytes = std::move(payload);
     if (upload.offset > upload.size || upload.bytes.size() > upload.size - upload.offset)
         throw RequestError("bad_request", "the chunk goes beyond the size of the upload", "offset");
@@ -79,8 +67,8 @@ StartStream readStartStream(JsonFields& fields, const RequestLimits& limits) {
 
 Composite readComposite(JsonFields& fields, const std::vector<std::byte>& payload, const RequestLimits& limits) {
     Composite composite;
-    composite.width = static_cast<int>(requiredCount(fields, "width", 16384));
-    composite.height = static_cast<int>(requiredCount(fields, "height", 16384));
+    composite.width = static_cast<int>(fields.requiredCount("width", 16384));
+    composite.height = static_cast<int>(fields.requiredCount("height", 16384));
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(composite.width) * static_cast<std::uint64_t>(composite.height);
     if (pixels == 0) throw RequestError("bad_request", "the picture has no pixels", "width");
@@ -92,11 +80,7 @@ Composite readComposite(JsonFields& fields, const std::vector<std::byte>& payloa
         composite.camera = readCamera(inner);
         inner.finish();
     }
-    const EncodingFields encoding = readEncoding(fields);
-    composite.encoding = encoding.encoding;
-    composite.quality = encoding.quality;
-    composite.exposure = encoding.exposure;
-    composite.hash = encoding.hash;
+    composite.format = readFormat(fields);
     if (payload.size() != pixels * 4 * sizeof(float))
         throw RequestError("bad_request", "the payload must be 3 floats of colour a pixel, then 1 of depth a pixel");
     static_assert(std::endian::native == std::endian::little);
@@ -108,6 +92,16 @@ Composite readComposite(JsonFields& fields, const std::vector<std::byte>& payloa
     if (!std::ranges::all_of(composite.color, isFinite) || !std::ranges::all_of(composite.depth, isFinite))
         throw RequestError("bad_request", "colour and depth must be finite numbers");
     return composite;
+}
+
+Change readChange(JsonFields& fields) {
+    Change change;
+    change.light = readLight(fields);
+    if (change.light.empty()) throw RequestError("bad_request", "nothing to change: give sun, extinction or wind");
+    change.cloud = fields.indexOrName("cloud", 65535, longestName);
+    if (change.cloud && !change.light.extinction)
+        throw RequestError("bad_request", "a cloud is named with an extinction for it", "cloud");
+    return change;
 }
 
 Request readRequest(Message& message, JsonFields& fields, const RequestLimits& limits) {
@@ -123,20 +117,17 @@ Request readRequest(Message& message, JsonFields& fields, const RequestLimits& l
         case MessageType::startStream:
             return readStartStream(fields, limits);
         case MessageType::stopStream:
-            return StopStream{requiredCount(fields, "stream", std::uint64_t{1} << 53U)};
+            return StopStream{fields.requiredCount("stream", std::uint64_t{1} << 53U)};
         case MessageType::composite:
             return readComposite(fields, message.payload, limits);
         case MessageType::cancel:
-            return Cancel{requiredCount(fields, "request", std::uint64_t{1} << 53U)};
+            return Cancel{fields.requiredCount("request", std::uint64_t{1} << 53U)};
         case MessageType::statistics:
             return StatisticsRequest{};
         case MessageType::ping:
             return Ping{};
-        case MessageType::change: {
-            const LightChange light = readLight(fields);
-            if (light.empty()) throw RequestError("bad_request", "nothing to change: give sun, extinction or wind");
-            return Change{light};
-        }
+        case MessageType::change:
+            return readChange(fields);
         case MessageType::error:
             break;
     }

@@ -1,8 +1,7 @@
 #include "service/protocol/session.h"
 
-#include <nlohmann/json.hpp>
-
 #include "base/text.h"
+#include "service/protocol/error_reply.h"
 #include "service/protocol/json_fields.h"
 #include "service/values/sha256.h"
 
@@ -14,12 +13,6 @@ namespace {
 constexpr MessageLimits strangerLimits{4096, 0};
 
 }  // namespace
-
-Message errorReply(std::uint64_t id, const std::string& code, const std::string& text, const std::string& where) {
-    nlohmann::json body{{"code", code}, {"message", shortened(oneLine(text), 800)}};
-    if (!where.empty()) body["where"] = shortened(oneLine(where), 200);
-    return {MessageType::error, id, body.dump(), {}};
-}
 
 Session::Session(const SessionPolicy& policy) : policy_(policy), reader_(strangerLimits) {}
 

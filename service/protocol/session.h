@@ -22,15 +22,15 @@ struct Incoming {
     Request request;
 };
 
-/// One connection as a state machine, without sockets, clocks or threads: bytes in, replies and requests out.
-/// First comes hello; what is wrong with a request is answered; what is wrong with the framing ends the connection.
+/// One connection as a state machine, without sockets, clocks or threads: bytes go in, replies and requests come out.
+/// The first request has to be hello. A mistake in a request is answered; a mistake in the framing ends the connection.
 class Session {
   public:
     /// `policy` must outlive the session.
     explicit Session(const SessionPolicy& policy);
 
     struct Result {
-        std::vector<Message> replies;  ///< to hello, ping and whatever is wrong
+        std::vector<Message> replies;  ///< to hello, ping and bad requests
         std::vector<Incoming> requests;
         std::uint64_t refusals = 0;  ///< errors among the replies
         bool close = false;          ///< after the replies
@@ -52,8 +52,5 @@ class Session {
     bool closed_ = false;
     std::string client_;
 };
-
-/// {"code", "message", "where"}
-Message errorReply(std::uint64_t id, const std::string& code, const std::string& text, const std::string& where = {});
 
 }  // namespace lumulus::service

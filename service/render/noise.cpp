@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace lumulus::service {
 
@@ -31,6 +32,23 @@ double nestedNoise(const LayeredImage& earlier, int earlierCount, const LayeredI
     }
     const double n1 = earlierCount, n2 = laterCount;
     return sum / counted / (n2 / n1 - 1.0);
+}
+
+bool NoiseEstimate::wants(int generations) const {
+    if (!last_) return true;
+    return relMseTimesPhotons_ ? generations >= 2 * last_->generations : generations > last_->generations;
+}
+
+void NoiseEstimate::add(LayeredImage picture, int generations, std::uint64_t photons) {
+    if (last_ && last_->generations > 0 && generations > last_->generations)
+        relMseTimesPhotons_ =
+            nestedNoise(last_->image, last_->generations, picture, generations) * static_cast<double>(photons);
+    last_ = Picture{std::move(picture), generations};
+}
+
+std::optional<double> NoiseEstimate::relMse(std::uint64_t photons) const {
+    if (!relMseTimesPhotons_ || photons == 0) return std::nullopt;
+    return *relMseTimesPhotons_ / static_cast<double>(photons);
 }
 
 }  // namespace lumulus::service

@@ -5,11 +5,11 @@
 
 namespace lumulus::service {
 
-/// The view with its sides divided by `reduction`, the part of it that holds the tile, one ray a pixel.
+/// The view with its sides divided by `reduction` and one ray a pixel. Its tile holds that of the view.
 View reducedView(const View& view, int reduction);
 
-/// A picture of reducedView(view) spread over the pixels of `view`: bilinear; depths, which must not be mixed, take the
-/// nearest.
+/// Enlarges a picture of reducedView(view) to the pixels of `view`, with bilinear interpolation. Depths, which must not
+/// be mixed, take the nearest pixel.
 LayeredImage enlarged(const LayeredImage& image, const View& view, const View& reduced);
 
 }  // namespace lumulus::service

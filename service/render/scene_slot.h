@@ -1,22 +1,26 @@
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <functional>
 #include <map>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "renderer.h"
 #include "scene/scene.h"
-#include "service/net/config.h"
 #include "service/render/cost_model.h"
+#include "service/render/noise.h"
+#include "service/render/render_config.h"
 #include "service/render/scheduler.h"
+#include "service/values/results.h"
 
 namespace lumulus::service {
 
-/// Thrown where what a client asked for is not wanted any more.
+/// Thrown where nobody waits any more for the work at hand.
 struct Cancelled {};
 
 /// Thrown where a scene takes longer than the limits allow; its renderer is of no more use.
@@ -25,54 +29,52 @@ class TooSlow : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A scene that is served: its renderer, its light, and what its work costs. Not for several threads.
+/// A scene that is served: its renderer, and what its work costs. The renderer owns light, extinction and wind; the
+/// scene as it was loaded never changes. Not for several threads, but for key(), scene(), description() and
+/// requireCloud().
 class SceneSlot {
   public:
-    /// Loads, prepares, and draws a small picture, so that shaders are compiled and costs known. `abandoned` is asked
-    /// between the steps; what it throws ends it. Errors: InputError, Error, TooSlow.
-    SceneSlot(std::string slotKey, const scene::Scene& scene, const Config& config,
+    /// Loads and prepares the scene, and draws a small picture, so that shaders are compiled and costs known.
+    /// `abandoned` is called between the steps; what it throws ends the load. Errors: InputError, Error, TooSlow.
+    SceneSlot(std::string slotKey, const scene::Scene& scene, const RenderConfig& config,
               const std::function<void()>& abandoned);
 
     const std::string& key() const { return key_; }
+    /// The scene as it was loaded.
     const scene::Scene& scene() const { return scene_; }
-    /// {"name", "width", "height", "generations", "photons_each", …}: the reply to load_scene.
-    const std::string& description() const { return description_; }
-    /// {"generations", "current", …}
-    nlohmann::json state() const;
+    /// The scene as it was when it was loaded.
+    const SceneDescription& description() const { return description_; }
+    SceneState state() const;
 
+    /// Errors: RequestError `not_found` where the scene has no such cloud.
+    void requireCloud(const CloudReference& cloud) const;
     /// Errors: RequestError where the scene cannot have such a light.
     void apply(const LightChange& light);
 
     /// Whether the ring lacks generations under the light of now.
-    bool wantsGeneration() const { return generationsMissing() > 0; }
-    int generationsMissing() const;
+    bool wantsGeneration() const;
     /// Errors: TooSlow.
     void traceGeneration();
     double traceMs() const { return costs_.traceMs(); }
-    /// Whether pictures show a coarse sun.
+    /// Whether pictures show the sun by a shadow volume of reduced resolution.
     bool wantsSun() const { return renderer_->sunReduction() > 1; }
-    /// Does some of what is missing.
+    /// Makes a part of the shadow volume's full resolution.
     void sharpenSun();
     double sharpenMs() const { return costs_.sunMs(sharpenShare()); }
     Clock::time_point lastTraced() const { return lastTraced_; }
-    /// Changes with all that changes pictures of the same view.
+    /// A number that changes with everything that changes pictures of the same view.
     std::uint64_t revision() const { return revision_; }
 
     /// Whether another generation belongs into this frame before it is drawn.
     bool needsGeneration(const Job& job, const FrameRequest& frame) const;
-
-    struct Frame {
-        Message reply;
-        bool reduced = false, late = false;
-        double seconds = 0.0;  ///< since the request came
-    };
-    /// The client's picture through the fog of the scene. Errors: Cancelled, RequestError, TooSlow.
-    Frame composite(const Job& job, const Composite& composite);
     /// Errors: Cancelled, RequestError, TooSlow.
-    Frame draw(const Job& job, const FrameRequest& frame);
+    FrameResult draw(const Job& job, const FrameRequest& frame);
+    /// Draws the client's picture through the fog of the scene. Errors: Cancelled, RequestError, TooSlow.
+    CompositeResult composite(const Job& job, const Composite& composite);
+    /// Takes what encoding a picture of this scene cost.
+    void noteEncoded(Encoding encoding, double milliseconds, std::uint64_t pixels);
 
   private:
-    struct Drawn;
     /// While it lives, work for a job ends where the job is cancelled or takes too long.
     class Guarded {
       public:
@@ -85,49 +87,36 @@ class SceneSlot {
         SceneSlot& slot_;
     };
 
-    std::vector<View> viewsOf(const FrameRequest& frame) const;
-    Drawn drawViews(const FrameRequest& frame, const std::vector<View>& views, int reduction);
-    void noteCosts(const Drawn& drawn, std::uint64_t rays);
+    SceneDescription describe() const;
+    std::vector<View> viewsOf(const std::vector<ViewRequest>& requests) const;
     std::uint64_t raysOf(const std::vector<View>& views) const;
+    View smallView() const;
     void learnCosts();
-    nlohmann::json shownDescription() const;
-    std::vector<std::string> repeatOverrides() const;
-    std::map<std::string, double> tracePasses();
-    void probe();
+    void probeNoise();
     void guard() const;
     double sharpenShare() const;
     double allowSun(std::optional<double> milliseconds, double picture);
-
-    nlohmann::json describe() const;
-
-    /// Of the small pictures by which a scene is known.
-    static constexpr int probeWidth = 96;
+    void drawViews(const std::vector<View>& views, int reduction, FrameResult& result);
+    void noteDrawn(const FrameResult& result, std::uint64_t rays);
+    std::vector<PassTime> tracePasses();
+    PhotonState photons() const;
+    std::vector<std::string> repeatOverrides() const;
+    SceneShown shown() const;
 
     std::string key_;
-    std::string description_;
-    scene::Scene scene_;   // with the light of now
-    scene::Scene loaded_;  // as it was loaded
-    const Limits& limits_;
+    const scene::Scene scene_;
+    const RenderLimits& limits_;
     std::function<void()> abandoned_;
     const std::atomic<bool>* cancelled_ = nullptr;  // of the job that is drawn
     Clock::time_point deadline_ = Clock::time_point::max();
     std::unique_ptr<Renderer> renderer_;
+    SceneDescription description_;
     CostModel costs_;
-    glm::dvec3 wind_{0.0};
+    NoiseEstimate noise_;
     std::uint64_t revision_ = 1;
     std::deque<Clock::time_point> tracedAt_;  // of the generations in the ring
     Clock::time_point lastTraced_, lastSharpened_;
     std::map<std::string, double> passTotals_;  // of the passes of photons, when the last frame was made
-    struct Probe {
-        LayeredImage image;
-        int generations = 0;
-    };
-    std::optional<Probe> probe_;
-    double noise_ = -1.0;  // relMSE times photons; negative: not known yet
 };
-
-/// Lowers the budgets of memory to what the service gives. Errors: InputError for what goes beyond other limits.
-/// Errors: InputError.
-void applyLimits(scene::Scene& scene, const Limits& limits);
 
 }  // namespace lumulus::service

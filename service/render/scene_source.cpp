@@ -1,12 +1,13 @@
 #include "service/render/scene_source.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
 #include "base/error.h"
 #include "scene/load.h"
-#include "service/protocol/json_fields.h"
-#include "service/render/scene_slot.h"
+#include "service/values/request_error.h"
 #include "service/values/sha256.h"
 
 namespace lumulus::service {
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The text of a named scene, or the one that the client brought.
-std::string textOf(const LoadScene& load, const Config& config) {
+std::string textOf(const LoadScene& load, const RenderConfig& config) {
     if (load.name.empty()) return load.toml;
     const fs::path file = config.scenes / load.name;
     std::error_code ec;
@@ -36,7 +37,22 @@ bool liesIn(const fs::path& file, const fs::path& folder) {
     return !ec && std::ranges::mismatch(base, real).in1 == base.end();
 }
 
-SourcedScene sourceScene(const LoadScene& load, const Config& config, std::uint64_t owner) {
+void applyLimits(scene::Scene& scene, const RenderLimits& limits) {
+    scene.preparation.memoryBudget = std::min(scene.preparation.memoryBudget, limits.sceneMemory);
+    scene.photonMap.memoryBudget = std::min(scene.photonMap.memoryBudget, limits.sceneMemory);
+    const auto each = static_cast<std::uint64_t>(scene.photonMap.photons) /
+                      static_cast<std::uint64_t>(std::max(1, scene.photonMap.generations));
+    if (each > limits.photonsPerGeneration)
+        throw InputError(
+            fmt::format("a generation would hold {} photons, more than {}", each, limits.photonsPerGeneration),
+            "photon_map.photons", "ask for more generations or fewer photons");
+    const auto pixels = static_cast<std::uint64_t>(scene.image.width) * static_cast<std::uint64_t>(scene.image.height);
+    if (pixels > limits.requests.pixels)
+        throw InputError(fmt::format("the picture has {} pixels, more than {}", pixels, limits.requests.pixels),
+                         "image.width", "make it smaller");
+}
+
+SourcedScene sourceScene(const LoadScene& load, const RenderConfig& config, std::uint64_t owner) {
     if (load.name.find('\0') != std::string::npos)
         throw RequestError("not_found", "there is no scene of this name", "name");
     try {

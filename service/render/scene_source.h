@@ -2,8 +2,9 @@
 
 #include <string>
 
-#include "service/net/config.h"
-#include "service/protocol/requests.h"
+#include "scene/scene.h"
+#include "service/render/render_config.h"
+#include "service/values/requests.h"
 
 namespace lumulus::service {
 
@@ -15,7 +16,10 @@ struct SourcedScene {
 
 /// Finds the scene: names stay in the folder of scenes (links followed), clouds in it or among the uploads.
 /// `owner` goes into the key of private scenes. Errors: RequestError `not_found`, `bad_request`.
-SourcedScene sourceScene(const LoadScene& load, const Config& config, std::uint64_t owner);
+SourcedScene sourceScene(const LoadScene& load, const RenderConfig& config, std::uint64_t owner);
+
+/// Lowers the memory budgets of a scene to what the service gives. Errors: InputError for what exceeds other limits.
+void applyLimits(scene::Scene& scene, const RenderLimits& limits);
 
 /// Whether a file, links followed, lies in a folder.
 bool liesIn(const std::filesystem::path& file, const std::filesystem::path& folder);

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "service/protocol/json_fields.h"
+#include "service/values/request_error.h"
 
 namespace lumulus::service {
 
@@ -22,6 +22,14 @@ Clock::duration period(double rate) {
 
 }  // namespace
 
+/// Tells those who draw or encode pictures of the client to stop, where `condition(job)` holds.
+template <class Condition>
+void Scheduler::cancelUnderWay(Client& client, const Condition& condition) {
+    if (client.current && condition(*client.current)) client.current->cancelled->store(true);
+    for (const Job& job : client.encoding)
+        if (condition(job)) job.cancelled->store(true);
+}
+
 void Scheduler::addClient(ClientId client) {
     if (clients_.try_emplace(client).second) line_.push_back(client);
 }
@@ -29,7 +37,7 @@ void Scheduler::addClient(ClientId client) {
 void Scheduler::removeClient(ClientId client) {
     const auto it = clients_.find(client);
     if (it == clients_.end()) return;
-    if (it->second.current) it->second.current->cancelled->store(true);
+    cancelUnderWay(it->second, [](const Job&) { return true; });
     clients_.erase(it);
     line_.remove(client);
 }
@@ -75,8 +83,7 @@ bool Scheduler::stopStream(ClientId id, std::uint64_t stream) {
     const auto it = clients_.find(id);
     if (it == clients_.end()) return false;
     Client& client = it->second;
-    if (client.current && client.current->stream && client.current->id == stream)
-        client.current->cancelled->store(true);
+    cancelUnderWay(client, [&](const Job& job) { return job.stream && job.id == stream; });
     std::erase_if(client.queue, [&](const Job& job) { return job.stream && job.id == stream; });
     return client.streams.erase(stream) > 0;
 }
@@ -86,8 +93,7 @@ bool Scheduler::cancel(ClientId id, std::uint64_t request) {
     if (it == clients_.end()) return false;
     Client& client = it->second;
     if (std::erase_if(client.queue, [&](const Job& job) { return !job.stream && job.id == request; }) > 0) return true;
-    if (client.current && !client.current->stream && client.current->id == request)
-        client.current->cancelled->store(true);
+    cancelUnderWay(client, [&](const Job& job) { return !job.stream && job.id == request; });
     return false;
 }
 
@@ -145,6 +151,23 @@ bool Scheduler::done(const Job& job) {
     return !(job.stream && job.cancelled->load());
 }
 
+bool Scheduler::drawn(const Job& job) {
+    if (!done(job)) return false;
+    Client& client = clients_.at(job.client);
+    client.encoding.push_back(job);
+    ++client.unsent;
+    return true;
+}
+
+bool Scheduler::encoded(const Job& job) {
+    const auto it = clients_.find(job.client);
+    if (it == clients_.end()) return false;
+    const bool waited = std::erase_if(it->second.encoding, [&](const Job& one) { return same(one, job); }) > 0;
+    const bool wanted = waited && !(job.stream && job.cancelled->load());
+    if (!wanted) frameSent(job.client);
+    return wanted;
+}
+
 void Scheduler::leaveOut(const Job& job) {
     const auto it = clients_.find(job.client);
     if (it == clients_.end()) return;
@@ -152,7 +175,7 @@ void Scheduler::leaveOut(const Job& job) {
     forget(it->second, job.id);
 }
 
-/// What the stream has seen.
+/// Forgets what the stream has shown.
 void Scheduler::forget(Client& client, std::uint64_t stream) {
     if (const auto it = client.streams.find(stream); it != client.streams.end()) it->second.seen.reset();
 }
@@ -166,10 +189,6 @@ std::optional<Clock::time_point> Scheduler::nextDue(const Revision& revision) co
             if (wanted(stream, current) && (!next || stream.due < *next)) next = stream.due;
     }
     return next;
-}
-
-void Scheduler::frameHandedOver(ClientId client) {
-    if (const auto it = clients_.find(client); it != clients_.end()) ++it->second.unsent;
 }
 
 void Scheduler::frameSent(ClientId client) {
@@ -211,9 +230,9 @@ std::vector<Job> Scheduler::takeQueued() {
 std::vector<Job> Scheduler::takeCurrent() {
     std::vector<Job> all;
     for (auto& [id, client] : clients_) {
-        if (!client.current) continue;
-        client.current->cancelled->store(true);
-        all.push_back(*std::exchange(client.current, std::nullopt));
+        cancelUnderWay(client, [](const Job&) { return true; });
+        if (client.current) all.push_back(*std::exchange(client.current, std::nullopt));
+        std::ranges::move(std::exchange(client.encoding, {}), std::back_inserter(all));
     }
     return all;
 }

@@ -12,14 +12,11 @@
 #include <variant>
 #include <vector>
 
-#include "service/protocol/requests.h"
+#include "service/values/requests.h"
 
 namespace lumulus::service {
 
-using ClientId = std::uint64_t;
-using Clock = std::chrono::steady_clock;
-
-/// One picture to be made.
+/// One frame or composite that a client waits for.
 struct Job {
     ClientId client = 0;
     std::uint64_t id = 0;
@@ -27,7 +24,7 @@ struct Job {
     Clock::time_point arrived;  ///< of a stream: when it was due
     bool stream = false;
     std::uint64_t number = 0;  ///< of the frame in its stream
-    bool begun = false;        ///< its light is applied
+    bool begun = false;        ///< whether its light is applied
     std::shared_ptr<std::atomic<bool>> cancelled = std::make_shared<std::atomic<bool>>(false);
 };
 
@@ -36,8 +33,9 @@ std::shared_ptr<const std::variant<FrameRequest, Composite>> workOf(Work work) {
     return std::make_shared<const std::variant<FrameRequest, Composite>>(std::move(work));
 }
 
-/// Which picture comes next. Clients take turns; in a channel the newest request takes the place of the one before;
-/// a client that does not read gets nothing more. Holds a bounded number of requests. Not for several threads.
+/// Decides which picture is drawn next. Clients are served one after the other; in a channel the newest request
+/// replaces the one before; a client that does not read gets nothing more. Holds a bounded number of requests. Not for
+/// several threads.
 class Scheduler {
   public:
     struct Bounds {
@@ -62,20 +60,26 @@ class Scheduler {
     bool stopStream(ClientId client, std::uint64_t id);
     bool cancel(ClientId client, std::uint64_t id);
 
-    /// The next picture, if any is due. A client whose turn it was goes to the end of the line.
+    /// The next picture, if any is due. Its client goes to the end of the line.
     std::optional<Job> take(Clock::time_point now, const Revision& revision);
-    /// Gives back what take() gave, to go on with it when its client's turn comes. False where it was superseded, or is
-    /// no longer what its client waits for.
+    /// Gives back what take() gave, to go on with it after those of the other clients. False where it was superseded,
+    /// or is no longer what its client waits for.
     bool putBack(const Job& job);
-    /// The picture that take() gave is made or failed. False where nobody waits for it any more: its client is gone,
+    /// Ends the picture that take() gave, which failed. False where nobody waits for it any more: its client is gone,
     /// its stream was stopped, or takeCurrent() has answered it.
     bool done(const Job& job);
+    /// The picture that take() gave is drawn and goes to be encoded; its client may get the next one meanwhile. It
+    /// counts as unsent from now on. False, as done(), where nobody waits for it.
+    bool drawn(const Job& job);
+    /// The picture is encoded and goes to the client, or failed. False, as done(), where nobody waits for it; it is not
+    /// unsent any more then.
+    bool encoded(const Job& job);
     /// A frame of a stream that take() gave is not made: its stream gets another, even if nothing changes.
     void leaveOut(const Job& job);
     /// When the next stream is due that take() would give then; none where only changes bring one.
     std::optional<Clock::time_point> nextDue(const Revision& revision) const;
 
-    void frameHandedOver(ClientId client);
+    /// A client has taken a picture.
     void frameSent(ClientId client);
 
     std::size_t streams() const;
@@ -84,7 +88,7 @@ class Scheduler {
     std::vector<Job> endStreams();
     /// All that waits; it is forgotten.
     std::vector<Job> takeQueued();
-    /// What is under way, told to stop: whoever makes it is not asked for it any more.
+    /// Pictures that are drawn or encoded, told to stop: nobody waits for them any more.
     std::vector<Job> takeCurrent();
 
   private:
@@ -97,15 +101,17 @@ class Scheduler {
     struct Client {
         std::deque<Job> queue;
         std::map<std::uint64_t, Stream> streams;
-        std::optional<Job> current;
+        std::optional<Job> current;  // is drawn
+        std::vector<Job> encoding;   // are drawn
         std::uint32_t unsent = 0;
         bool waiting = false;
     };
 
     bool blocked(const Client& client) const { return client.waiting || client.unsent >= bounds_.unsent; }
-    static bool isCurrent(const Client& client, const Job& job) {
-        return client.current && client.current->cancelled == job.cancelled;  // which every job has for itself
-    }
+    static bool same(const Job& a, const Job& b) { return a.cancelled == b.cancelled; }  // each has its own
+    static bool isCurrent(const Client& client, const Job& job) { return client.current && same(*client.current, job); }
+    template <class Condition>
+    static void cancelUnderWay(Client& client, const Condition& condition);
     static bool wanted(const Stream& stream, std::uint64_t revision) {
         return !stream.request.onChange || stream.seen != revision;
     }

@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "base/error.h"
-#include "service/protocol/json_fields.h"
+#include "service/values/request_error.h"
 #include "service/values/sha256.h"
 
 namespace lumulus::service {

@@ -6,13 +6,12 @@
 #include <memory>
 #include <string>
 
-#include "service/protocol/requests.h"
-#include "service/render/scheduler.h"
+#include "service/values/requests.h"
 
 namespace lumulus::service {
 
-/// The folder of uploaded VDB files, each named by its SHA-256. Half of a file never stands under such a name, and goes
-/// with its client.
+/// The folder of uploaded VDB files, each named by its SHA-256. A file that is not complete never stands under such a
+/// name, and is removed with its client.
 class UploadStore {
   public:
     /// Makes the folder, and removes what a killed server left. `mostBytes` of all files together.
@@ -24,9 +23,9 @@ class UploadStore {
         std::uint64_t received = 0;
         bool complete = false;
     };
-    /// Takes a chunk; chunks come in order, and one at offset 0 begins anew. A file that is there already is complete
-    /// at once. Errors: RequestError `bad_request` (another offset was due, or the bytes have another hash),
-    /// `too_large` (the folder is full), `storage` (the disk is).
+    /// Takes a chunk. Chunks come in order; one at offset 0 begins anew. A file that is there already is complete at
+    /// once. Errors: RequestError `bad_request` (another offset was due, or the bytes have another hash), `too_large`
+    /// (the folder is full), `storage` (the disk is full).
     Progress receive(ClientId client, const Upload& upload);
     void dropClient(ClientId client);
 

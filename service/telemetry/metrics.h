@@ -1,9 +1,16 @@
 #pragma once
 
+#include <prometheus/counter.h>
+#include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
+#include <prometheus/registry.h>
+
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace lumulus::service {
 
@@ -30,26 +37,32 @@ class Metrics {
         bytesReceived,
         bytesSent,
         timeouts,
+        encoderWaits,
         names
     };
 
-    void add(Name name, std::int64_t value = 1) { values_.at(name).fetch_add(value, std::memory_order_relaxed); }
-    void set(Name name, std::int64_t value) { values_.at(name).store(value, std::memory_order_relaxed); }
-    std::int64_t get(Name name) const { return values_.at(name).load(std::memory_order_relaxed); }
-    /// From a request's arrival to the hand-over of its frame.
-    void frameLatency(double seconds);
+    Metrics();
+
+    void add(Name name, std::int64_t value = 1);
+    /// Gauges alone.
+    void set(Name name, std::int64_t value);
+    /// Takes the seconds from a request's arrival to the hand-over of its frame.
+    void frameLatency(double seconds) { latencies_->Observe(seconds); }
 
     /// In Prometheus' text format, version 0.0.4.
     std::string prometheus() const;
-    /// As the fields of a JSON object's text: {"connections_open": 1, …}
-    std::string json() const;
+    /// Counters and gauges by name, without the prefix that they have in Prometheus' format.
+    std::vector<std::pair<std::string_view, std::int64_t>> values() const;
 
   private:
-    static constexpr std::array<double, 12> bounds{0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0};
+    struct Value {
+        prometheus::Counter* counter = nullptr;  // one of the two
+        prometheus::Gauge* gauge = nullptr;
+    };
 
-    std::array<std::atomic<std::int64_t>, names> values_{};
-    std::array<std::atomic<std::uint64_t>, bounds.size() + 1> latencies_{};
-    std::atomic<double> latencySum_{0.0};
+    prometheus::Registry registry_;
+    std::array<Value, names> values_;
+    prometheus::Histogram* latencies_;
 };
 
 }  // namespace lumulus::service

@@ -17,7 +17,7 @@ class Sha256 {
     ~Sha256();
 
     void update(std::span<const std::byte> bytes);
-    /// Of all so far, as 64 digits 0-9 a-f; ends the work.
+    /// The hash of all bytes so far, as 64 digits 0-9 a-f. Nothing may be added after it.
     std::string hex();
 
   private:
@@ -27,7 +27,7 @@ class Sha256 {
 
 std::string sha256Hex(std::span<const std::byte> bytes);
 
-/// Whether two secrets are equal, in a time that depends on neither.
+/// Whether two secrets are equal. The time that it takes depends on neither.
 bool equalSecrets(std::string_view a, std::string_view b);
 
 }  // namespace lumulus::service

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "service/protocol/json_fields.h"
+#include "service/values/request_error.h"
 #include "service/values/sha256.h"
 #include "support/temporary_folder.h"
 
