@@ -12,8 +12,8 @@ mkdir -p "$build/found"
 
 flags=(-std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined -DGLM_ENABLE_EXPERIMENTAL
        -I. -Isrc -Ishaders -Itests)
-sources=(service/{frame_fields,json_fields,message,requests,session,sha256}.cpp src/base/text.cpp
-         tests/fuzz/session_fuzz.cpp)
+sources=(service/protocol/{error_reply,frame_fields,json_fields,message,requests,session}.cpp service/values/sha256.cpp
+         src/base/text.cpp tests/fuzz/session_fuzz.cpp)
 clang++ "${flags[@]}" "${sources[@]}" -lfmt -lcrypto -o "$build/session_fuzz"
 
 "$build/session_fuzz" -max_total_time="$seconds" -max_len=4096 -timeout=5 -print_final_stats=1 "$build/found" "$corpus"

@@ -13,7 +13,7 @@ packages=(
     # Vulkan: headers, loader, a driver that runs on the CPU, validation
     libvulkan-dev libvulkan-volk-dev libspirv-cross-c-shared-dev mesa-vulkan-drivers vulkan-validationlayers
     # the frame service and its tests: a browser, a proxy
-    libboost-dev libssl-dev chromium chromium-driver python3-selenium nginx-light libnginx-mod-stream openssl
+    libboost-dev libssl-dev prometheus-cpp-dev chromium chromium-driver python3-selenium nginx-light libnginx-mod-stream openssl
     # the rest
     libcli11-dev libfmt-dev libglm-dev libtomlplusplus-dev nlohmann-json3-dev libgmock-dev libgtest-dev
 )

@@ -7,7 +7,7 @@
 
 #include "service/client/connection.h"
 #include "service/client/lumulus_client.h"
-#include "service/sha256.h"
+#include "service/values/sha256.h"
 
 namespace lumulus {
 

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-#include "service/message.h"
+#include "service/protocol/message.h"
 
 namespace lumulus {
 

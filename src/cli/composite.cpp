@@ -95,7 +95,8 @@ void applyFog(LayeredImage& color, const CompositeOptions& options, const scene:
     statistics.device = context.device().name;
     statistics.gpuBytes = context.memory().used;
     statistics.gpuBytesHeld = context.memory().held;
-    for (const gpu::PassTime& pass : fog.takeTimes()) statistics.passes.push_back({pass.name, pass.milliseconds});
+    for (const gpu::PassTime& pass : fog.takeTimes())
+        statistics.passes.push_back({pass.name, pass.milliseconds, Stage::fog});
     statistics.validationMessages = context.validationMessages();
 }
 

@@ -1,7 +1,7 @@
 #include "cli/serve.h"
 
-#include "service/config.h"
-#include "service/server.h"
+#include "service/net/config.h"
+#include "service/net/server.h"
 
 namespace lumulus::cli {
 

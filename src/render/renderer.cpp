@@ -7,6 +7,7 @@
 #include "base/stopwatch.h"
 #include "frame/view_params.h"
 #include "render/changes.h"
+#include "render/pass_stage.h"
 #include "render/picture.h"
 #include "render/renderer_state.h"
 
@@ -27,7 +28,7 @@ void addTimes(Statistics& statistics, const std::vector<gpu::PassTime>& times) {
     for (const gpu::PassTime& pass : times) {
         const auto known = std::ranges::find(statistics.passes, pass.name, &PassTime::name);
         if (known == statistics.passes.end())
-            statistics.passes.push_back({pass.name, pass.milliseconds});
+            statistics.passes.push_back({pass.name, pass.milliseconds, stageOf(pass.name)});
         else
             known->milliseconds += pass.milliseconds;
     }

@@ -9,6 +9,7 @@
 
 #include "base/image.h"
 #include "base/interrupt.h"
+#include "base/pass_time.h"
 #include "base/progress.h"
 #include "scene/scene.h"
 #include "view/view.h"
@@ -24,11 +25,6 @@ struct RendererOptions {
     /// The photons are not counted beforehand: generations may go on beyond the scene's, and preview() can be asked.
     /// Not with a ring.
     bool progressive = false;
-};
-
-struct PassTime {
-    std::string name;
-    double milliseconds = 0.0;
 };
 
 /// What `--stats` reports.

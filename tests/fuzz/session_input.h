@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "service/session.h"
+#include "service/protocol/session.h"
 
 namespace lumulus::service::test {
 

@@ -1,5 +1,5 @@
 // service.toml: the shipped one, and what is refused.
-#include "service/config.h"
+#include "service/net/config.h"
 
 #include <gtest/gtest.h>
 
@@ -34,18 +34,18 @@ TEST_F(ConfigTest, AnEmptyFileIsTheDefaults) {
     const Config config = load("");
     EXPECT_EQ(config.tcp.host, "127.0.0.1");
     EXPECT_EQ(config.tcp.port, 7788);
-    EXPECT_EQ(config.scenes, folder / "scenes");
+    EXPECT_EQ(config.render.scenes, folder / "scenes");
     EXPECT_TRUE(config.unixSocket.empty());
 }
 
 TEST_F(ConfigTest, TheShippedFileIsGood) {
     const Config config = loadConfig(LUMULUS_CONFIGS "/service.toml");
-    EXPECT_EQ(config.defaultScene, "cumulus.toml");
+    EXPECT_EQ(config.render.defaultScene, "cumulus.toml");
     const Config defaults = load("");
     EXPECT_EQ(config.limits.messages.jsonBytes, defaults.limits.messages.jsonBytes);
-    EXPECT_EQ(config.limits.requests.pixels, defaults.limits.requests.pixels);
-    EXPECT_EQ(config.limits.uploadFolderBytes, defaults.limits.uploadFolderBytes);
-    EXPECT_EQ(config.limits.photonsPerGeneration, defaults.limits.photonsPerGeneration);
+    EXPECT_EQ(config.render.limits.requests.pixels, defaults.render.limits.requests.pixels);
+    EXPECT_EQ(config.render.limits.uploadFolderBytes, defaults.render.limits.uploadFolderBytes);
+    EXPECT_EQ(config.render.limits.photonsPerGeneration, defaults.render.limits.photonsPerGeneration);
 }
 
 TEST_F(ConfigTest, MistakesAreNamed) {

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "service/cost_model.h"
-#include "service/encode.h"
-#include "service/noise.h"
-#include "service/resample.h"
+#include "service/protocol/encode.h"
+#include "service/render/cost_model.h"
+#include "service/render/noise.h"
+#include "service/render/resample.h"
 
 namespace lumulus::service {
 namespace {
@@ -113,9 +113,12 @@ TEST(Noise, IsTheVarianceOfTheLaterMean) {
 TEST(Encode, HalvesRoundToNearestEvenAndDepthsAreFloats) {
     const LayeredImage image =
         picture(3, 2, [](int x, int y) { return x == 2 ? 1e10F : 1.0F + 0x1p-11F * static_cast<float>(x + 2 * y); });
-    std::vector<std::byte> payload(5);
-    const EncodeOptions options{{Product::color, Product::depth}, Encoding::half, 85, 0.0};
-    const auto view = appendView(image, options, payload);
+    EncodedPictures pictures;
+    pictures.payload.resize(5);
+    appendPicture(image, {{Product::color, Product::depth}, {}, 0.0}, pictures);
+    const std::vector<std::byte>& payload = pictures.payload;
+    const auto& view = pictures.views[0];
+    EXPECT_EQ(pictures.pixels, 6U);
     ASSERT_EQ(view["products"].size(), 2U);
     EXPECT_EQ(view["products"][0]["offset"], 5);
     EXPECT_EQ(view["products"][0]["bytes"], 3 * 2 * 4 * 2);
@@ -138,10 +141,12 @@ TEST(Encode, HalvesRoundToNearestEvenAndDepthsAreFloats) {
 TEST(Encode, FilesBeginAsTheirKind) {
     const LayeredImage image = picture(16, 8, [](int x, int) { return static_cast<float>(x) / 16.0F; });
     const auto beginning = [&](Encoding encoding) {
-        std::vector<std::byte> payload;
-        const auto view = appendView(image, {{Product::color}, encoding, 85, 0.0}, payload);
-        EXPECT_EQ(view["bytes"], payload.size());
-        return std::string(reinterpret_cast<const char*>(payload.data()), 4);
+        EncodedPictures pictures;
+        PictureFormat format;
+        format.encoding = encoding;
+        appendPicture(image, {{Product::color}, format, 0.0}, pictures);
+        EXPECT_EQ(pictures.views[0]["bytes"], pictures.payload.size());
+        return std::string(reinterpret_cast<const char*>(pictures.payload.data()), 4);
     };
     EXPECT_EQ(beginning(Encoding::png), "\x89PNG");
     EXPECT_EQ(beginning(Encoding::jpeg).substr(0, 3), "\xFF\xD8\xFF");

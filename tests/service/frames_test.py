@@ -189,6 +189,19 @@ class Behaviour(ServiceTest):
             self.assertEqual(moved.info["current_generations"], 4)
             self.assertNotEqual(moved.info["hash"], client.frame(time=0).info["hash"])
 
+    def test_a_change_may_name_the_cloud(self):
+        with self.server.client() as client:
+            client.load_scene("small.toml", private=True)
+            before = client.frame().info["hash"]
+            client.change(cloud=0, extinction=0.04)
+            self.assertNotEqual(client.frame().info["hash"], before)
+            client.change(extinction=0.03)
+            for cloud in (1, "nobody"):
+                with self.assertRaises(ServiceError) as caught:
+                    client.change(cloud=cloud, extinction=0.05)
+                self.assertEqual((caught.exception.code, caught.exception.where), ("not_found", "cloud"))
+            self.assertEqual(client.frame().info["repeat"][-1].split("=")[0], "photon_map.photons")
+
     def test_scenes_of_others_are_left_alone(self):
         with self.server.client() as one, self.server.client() as other:
             before = one.frame().info["hash"]

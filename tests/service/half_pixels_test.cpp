@@ -1,5 +1,5 @@
 // Rounding to half: the fast way makes the bits of the plain one, which are Imath's.
-#include "service/half_pixels.h"
+#include "service/protocol/half_pixels.h"
 
 #include <gtest/gtest.h>
 #include <half.h>

@@ -1,5 +1,5 @@
 // Framing: what comes in pieces, cut off, or with lengths that lie.
-#include "service/message.h"
+#include "service/protocol/message.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // From JSON to values: what is taken, and what is refused with the name of the field.
-#include "service/requests.h"
+#include "service/protocol/requests.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "service/json_fields.h"
+#include "service/protocol/json_fields.h"
 #include "support/service_messages.h"
 
 namespace lumulus::service {
@@ -45,7 +45,7 @@ TEST(Requests, AFrameSaysWhatItSays) {
     EXPECT_EQ(frame.light.sunIrradiance, glm::dvec3(1, 2, 3));
     EXPECT_EQ(frame.light.wind, glm::dvec3(1, 0, 0));
     EXPECT_EQ(frame.budget.milliseconds, 50.0);
-    EXPECT_EQ(frame.encoding, Encoding::exr);
+    EXPECT_EQ(frame.format.encoding, Encoding::exr);
     EXPECT_THAT(frame.products, testing::ElementsAre(Product::color, Product::depth));
 }
 
@@ -131,6 +131,19 @@ TEST(Requests, ACompositeHasItsPixels) {
     infinite[3] = std::byte{0x7F};
     infinite[2] = std::byte{0x80};
     EXPECT_EQ(refusal(request(MessageType::composite, R"({"width":1,"height":1})", infinite)), "bad_request: ");
+}
+
+TEST(Requests, AChangeMayNameTheCloudOfItsExtinction) {
+    const auto change = [](const char* json) {
+        return std::get<Change>(parseRequest(request(MessageType::change, json), {}));
+    };
+    EXPECT_FALSE(change(R"({"extinction":0.1})").cloud);
+    EXPECT_EQ(change(R"({"extinction":0.1,"cloud":2})").cloud, CloudReference(2U));
+    EXPECT_EQ(change(R"({"extinction":0.1,"cloud":"west"})").cloud, CloudReference("west"));
+    EXPECT_EQ(refusal(request(MessageType::change, R"({"extinction":0.1,"cloud":-1})")), "bad_request: cloud");
+    EXPECT_EQ(refusal(request(MessageType::change, R"({"extinction":0.1,"cloud":[0]})")), "bad_request: cloud");
+    EXPECT_EQ(refusal(request(MessageType::change, R"({"wind":[1,0,0],"cloud":0})")), "bad_request: cloud");
+    EXPECT_EQ(refusal(request(MessageType::frame, R"({"extinction":0.1,"cloud":0})")), "bad_request: cloud");
 }
 
 TEST(Requests, PayloadsAndTypesThatNobodyKnowsAreRefused) {

@@ -1,10 +1,10 @@
 // Which picture comes next: turns, latest wins, streams by rate and change, clients that do not read.
-#include "service/scheduler.h"
+#include "service/render/scheduler.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "service/json_fields.h"
+#include "service/values/request_error.h"
 
 namespace lumulus::service {
 namespace {
@@ -129,8 +129,10 @@ TEST_F(SchedulerTest, AStreamOfChangesSleepsWithoutThem) {
 TEST_F(SchedulerTest, WhoDoesNotReadGetsNoMore) {
     scheduler.startStream(1, 7, stream(1000, false), now);
     for (int i = 0; i < 2; ++i) {
-        EXPECT_EQ(next(), 7U);
-        scheduler.frameHandedOver(1);
+        const auto job = take();
+        ASSERT_TRUE(job && job->id == 7);
+        EXPECT_TRUE(scheduler.drawn(*job));
+        EXPECT_TRUE(scheduler.encoded(*job));
         now += milliseconds(10);
     }
     EXPECT_EQ(next(), 0U);
@@ -159,8 +161,52 @@ TEST_F(SchedulerTest, AClientThatGoesTakesItsWorkAlong) {
     scheduler.removeClient(1);
     EXPECT_TRUE(job->cancelled->load());
     EXPECT_FALSE(scheduler.putBack(*job));
-    scheduler.frameHandedOver(1);
+    EXPECT_FALSE(scheduler.drawn(*job));
+    EXPECT_FALSE(scheduler.encoded(*job));
     EXPECT_EQ(next(), 0U);
+}
+
+TEST_F(SchedulerTest, APictureThatIsEncodedCountsAsUnsentAndLeavesRoomForTheNext) {
+    for (const std::uint64_t id : {10U, 11U, 12U}) scheduler.submit(frame(1, id, 0, true));
+    const auto first = take();
+    EXPECT_TRUE(scheduler.drawn(*first));
+    const auto second = take();
+    ASSERT_TRUE(second && second->id == 11);
+    EXPECT_TRUE(scheduler.drawn(*second));
+    EXPECT_FALSE(take());  // two are unsent
+    EXPECT_TRUE(scheduler.encoded(*first));
+    EXPECT_FALSE(take());
+    scheduler.frameSent(1);
+    EXPECT_EQ(next(), 12U);
+}
+
+TEST_F(SchedulerTest, NobodyWaitsForAPictureThatWasStoppedWhileItWasEncoded) {
+    scheduler.startStream(1, 7, stream(10, false), now);
+    const auto streamed = take();
+    EXPECT_TRUE(scheduler.drawn(*streamed));
+    scheduler.submit(frame(1, 10));
+    const auto asked = take();
+    EXPECT_TRUE(scheduler.drawn(*asked));
+    EXPECT_TRUE(scheduler.stopStream(1, 7));
+    EXPECT_FALSE(scheduler.cancel(1, 10));  // does not wait any more
+    EXPECT_TRUE(streamed->cancelled->load() && asked->cancelled->load());
+    EXPECT_FALSE(scheduler.encoded(*streamed));
+    EXPECT_TRUE(scheduler.encoded(*asked));  // to be answered with the cancellation
+    scheduler.submit(frame(1, 11));
+    EXPECT_EQ(next(), 11U);  // the streamed one is not unsent
+    const auto all = scheduler.takeCurrent();
+    EXPECT_TRUE(all.empty());
+}
+
+TEST_F(SchedulerTest, WhatIsEncodedEndsWithTheRest) {
+    scheduler.submit(frame(1, 10));
+    const auto job = take();
+    EXPECT_TRUE(scheduler.drawn(*job));
+    const std::vector<Job> current = scheduler.takeCurrent();
+    ASSERT_EQ(current.size(), 1U);
+    EXPECT_EQ(current[0].id, 10U);
+    EXPECT_TRUE(job->cancelled->load());
+    EXPECT_FALSE(scheduler.encoded(*job));
 }
 
 TEST_F(SchedulerTest, WaitsForTheScene) {

@@ -1,5 +1,5 @@
 // A connection as a state machine: hello first, errors answered, broken framing ends it.
-#include "service/session.h"
+#include "service/protocol/session.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // The folder of uploads: whole files under their hash, or nothing.
-#include "service/upload_store.h"
+#include "service/render/upload_store.h"
 
 #include <gtest/gtest.h>
 
-#include "service/json_fields.h"
-#include "service/sha256.h"
+#include "service/values/request_error.h"
+#include "service/values/sha256.h"
 #include "support/temporary_folder.h"
 
 namespace lumulus::service {

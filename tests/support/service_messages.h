@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "service/message.h"
+#include "service/protocol/message.h"
 
 namespace lumulus::service::test {
 

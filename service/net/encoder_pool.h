@@ -1,0 +1,48 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <vector>
+
+namespace lumulus::service {
+
+/// Threads that work off tasks. Those of one lane are worked off one after the other, in the order in which they came,
+/// so that a connection gets its frames in order. Holds as many tasks as it is given: who submits them bounds them.
+class EncoderPool {
+  public:
+    using Task = std::function<void()>;
+
+    explicit EncoderPool(unsigned threads);
+    EncoderPool(const EncoderPool&) = delete;
+    EncoderPool& operator=(const EncoderPool&) = delete;
+    ~EncoderPool();
+
+    /// Tasks must not throw. After stop() they are dropped.
+    void submit(std::uint64_t lane, Task task);
+    /// Drops what waits, and returns when the tasks at hand have ended.
+    void stop();
+
+  private:
+    struct Entry {
+        std::uint64_t lane = 0;
+        Task task;
+    };
+
+    void work();
+    std::deque<Entry>::iterator next();
+
+    std::mutex mutex_;  // guards what follows
+    std::condition_variable wake_;
+    std::deque<Entry> queue_;
+    std::set<std::uint64_t> busy_;  // lanes of which a task is at work
+    bool stopping_ = false;
+
+    std::vector<std::thread> threads_;
+};
+
+}  // namespace lumulus::service

@@ -1,0 +1,130 @@
+#include "service/net/frame_server.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "service/net/link.h"
+
+namespace lumulus::service {
+
+namespace {
+
+using Stream = asio::generic::stream_protocol::socket;
+using Local = asio::local::stream_protocol;
+
+constexpr std::size_t readBytes = 64UL << 10U;
+
+/// Bytes over a stream socket.
+class StreamCarrier {
+  public:
+    explicit StreamCarrier(Stream socket) : socket_(std::move(socket)), buffer_(readBytes) {}
+
+    auto executor() { return socket_.get_executor(); }
+
+    asio::awaitable<std::span<const std::byte>> read(error_code& error) {
+        const std::size_t count = co_await socket_.async_read_some(asio::buffer(buffer_), intoError(error));
+        co_return std::span(buffer_).first(count);
+    }
+
+    asio::awaitable<std::size_t> write(const std::vector<std::byte>& head, const std::vector<std::byte>& payload,
+                                       std::size_t done, error_code& error) {
+        const std::size_t inHead = std::min(done, head.size());
+        const std::array<asio::const_buffer, 2> buffers{asio::buffer(head) + inHead,
+                                                        asio::buffer(payload) + (done - inHead)};
+        co_return co_await socket_.async_write_some(buffers, intoError(error));
+    }
+
+    void close() {
+        error_code ignored;
+        socket_.shutdown(Stream::shutdown_both, ignored);
+        socket_.close(ignored);
+    }
+
+  private:
+    Stream socket_;
+    std::vector<std::byte> buffer_;
+};
+
+void start(Stream socket, Hub& hub, const std::string& from) {
+    const auto executor = socket.get_executor();
+    auto link = std::make_shared<Link<StreamCarrier>>(StreamCarrier(std::move(socket)), hub);
+    asio::co_spawn(
+        executor, [link, from] { return link->run(from); }, asio::detached);
+}
+
+bool answers(asio::io_context& io, const std::filesystem::path& path) {
+    Local::socket probe(io);
+    error_code error;
+    probe.connect(Local::endpoint(path.string()), error);
+    return !error;
+}
+
+}  // namespace
+
+Tcp::acceptor makeAcceptor(asio::io_context& io, const TcpAddress& address) {
+    const std::string text = address.host + ":" + std::to_string(address.port);
+    try {
+        return {io, Tcp::endpoint(asio::ip::make_address(address.host), address.port)};
+    } catch (const boost::system::system_error& e) {
+        throw InputError("cannot listen: " + e.code().message(), text,
+                         "choose another address, or end who listens there");
+    }
+}
+
+std::string addressText(const Tcp::endpoint& endpoint) {
+    const std::string host = endpoint.address().to_string();
+    const std::string port = std::to_string(endpoint.port());
+    return endpoint.address().is_v6() ? "[" + host + "]:" + port : host + ":" + port;
+}
+
+FrameServer::FrameServer(asio::io_context& io, Hub& hub) : io_(io), hub_(hub) {}
+
+void FrameServer::listenTcp(const TcpAddress& address) {
+    auto acceptor = std::make_shared<Tcp::acceptor>(makeAcceptor(io_, address));
+    addresses_.push_back(addressText(acceptor->local_endpoint()));
+    tcp_.push_back(acceptor);
+    const auto take = [this](Tcp::socket socket) {
+        error_code error, ignored;
+        const Tcp::endpoint from = socket.remote_endpoint(error);
+        socket.set_option(Tcp::no_delay(true), ignored);
+        socket.set_option(asio::socket_base::keep_alive(true), ignored);
+        if (!error) start(Stream(std::move(socket)), hub_, addressText(from));
+    };
+    asio::co_spawn(io_, acceptAll(acceptor, take), asio::detached);
+}
+
+void FrameServer::listenUnix(const std::filesystem::path& path, unsigned mode) {
+    if (path.string().size() > 100) throw InputError("the path is too long for a socket", path.string(), "shorten it");
+    std::error_code ec;
+    if (std::filesystem::is_socket(path, ec)) {
+        if (answers(io_, path))
+            throw InputError("a server listens there", path.string(), "end it, or change listen.unix");
+        std::filesystem::remove(path, ec);
+    }
+    // the socket must never have more permissions than asked for, not even for a moment
+    const ::mode_t before = ::umask(static_cast<::mode_t>(~mode & 0777U));
+    try {
+        auto acceptor = std::make_shared<Local::acceptor>(io_, Local::endpoint(path.string()));
+        ::umask(before);
+        local_.push_back(acceptor);
+        const auto take = [this](Local::socket socket) { start(Stream(std::move(socket)), hub_, "unix"); };
+        asio::co_spawn(io_, acceptAll(acceptor, take), asio::detached);
+    } catch (const boost::system::system_error& e) {
+        ::umask(before);
+        throw InputError("cannot listen: " + e.code().message(), path.string(), "change listen.unix");
+    }
+    addresses_.push_back("unix:" + path.string());
+    socketPath_ = path;
+}
+
+void FrameServer::close() {
+    error_code ignored;
+    for (const auto& acceptor : tcp_) acceptor->close(ignored);
+    for (const auto& acceptor : local_) acceptor->close(ignored);
+    std::error_code ec;
+    if (!socketPath_.empty()) std::filesystem::remove(socketPath_, ec);
+}
+
+}  // namespace lumulus::service

@@ -1,0 +1,68 @@
+#include "service/net/http_replies.h"
+
+#include <arpa/inet.h>
+
+#include <array>
+#include <sstream>
+
+#include "service/values/sha256.h"
+#include "viewer_files.h"
+
+namespace lumulus::service {
+
+namespace {
+
+struct File {
+    std::string_view target, type, body;
+};
+
+constexpr std::array<File, 6> files{{
+    {"/", "text/html; charset=utf-8", viewer::index_html},
+    {"/viewer.css", "text/css; charset=utf-8", viewer::viewer_css},
+    {"/viewer.js", "text/javascript; charset=utf-8", viewer::viewer_js},
+    {"/protocol.js", "text/javascript; charset=utf-8", viewer::protocol_js},
+    {"/orbit.js", "text/javascript; charset=utf-8", viewer::orbit_js},
+    {"/health", "text/plain; charset=utf-8", "ok\n"},
+}};
+
+constexpr std::string_view plain = "text/plain; charset=utf-8";
+
+/// Without the port; [::1] without its brackets.
+std::string hostName(std::string_view host) {
+    if (host.starts_with('[')) return std::string(host.substr(1, host.find(']') - 1));
+    return std::string(host.substr(0, host.find(':')));
+}
+
+bool isNumber(const std::string& host) {
+    in6_addr address{};
+    return ::inet_pton(AF_INET, host.c_str(), &address) == 1 || ::inet_pton(AF_INET6, host.c_str(), &address) == 1;
+}
+
+bool amongNames(const std::string& host, const std::string& names) {
+    std::istringstream list(names);
+    for (std::string name; list >> name;)
+        if (name == host) return true;
+    return false;
+}
+
+}  // namespace
+
+bool hostAllowed(const HttpQuestion& question, const Config& config) {
+    const std::string host = hostName(question.host);
+    if (!isNumber(host) && host != "localhost" && !amongNames(host, config.hostNames)) return false;
+    if (question.origin.empty()) return true;
+    const std::size_t scheme = question.origin.find("://");
+    return scheme != std::string_view::npos && question.origin.substr(scheme + 3) == question.host;
+}
+
+HttpReply httpReply(const HttpQuestion& question, const Config& config, const Metrics& metrics) {
+    const std::string_view target = question.target.substr(0, question.target.find('?'));
+    for (const File& file : files)
+        if (file.target == target) return {200, file.type, std::string(file.body)};
+    if (target != "/metrics") return {404, plain, "not found: see /, /health and /metrics\n"};
+    if (!config.token.empty() && !equalSecrets(question.authorization, "Bearer " + config.token))
+        return {401, plain, "metrics need the token: Authorization: Bearer TOKEN\n"};
+    return {200, "text/plain; version=0.0.4; charset=utf-8", metrics.prometheus()};
+}
+
+}  // namespace lumulus::service

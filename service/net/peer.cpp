@@ -1,0 +1,92 @@
+#include "service/net/peer.h"
+
+#include <algorithm>
+
+namespace lumulus::service {
+
+namespace {
+
+/// Replies that may wait besides frames: a client that does not read them is not heard.
+constexpr std::size_t mostWaiting = 256;
+constexpr std::size_t mostWaitingBytes = std::size_t{256} << 20U;
+
+double secondsBetween(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+}  // namespace
+
+Peer::Peer(ClientId client, std::string from, const SessionPolicy& policy, const ConnectionLimits& limits,
+           std::function<void()> wake)
+    : client_(client),
+      from_(std::move(from)),
+      limits_(limits),
+      wake_(std::move(wake)),
+      session_(policy),
+      allowance_(limits.requestsPerSecond) {}
+
+Session::Result Peer::receive(std::span<const std::byte> bytes, Clock::time_point now) {
+    Session::Result result = session_.receive(bytes);
+    const auto messages = static_cast<double>(result.requests.size() + result.replies.size());
+    const double refilled = allowance_ + secondsBetween(allowanceAt_, now) * limits_.requestsPerSecond;
+    allowance_ = std::min(refilled, limits_.requestsPerSecond) - messages;
+    allowanceAt_ = now;
+    if (messages > 0.0) lastMessage_ = now;
+    if (!session_.midMessage())
+        messageBegan_.reset();
+    else if (!messageBegan_ || messages > 0.0)
+        messageBegan_ = now;
+    return result;
+}
+
+void Peer::enqueue(Message message, bool frame) {
+    if (closed_) return;
+    Outgoing out;
+    out.head = encodeHead(message);
+    out.payload = std::move(message.payload);
+    out.frame = frame;
+    outboxBytes_ += out.head.size() + out.payload.size();
+    if (outbox_.empty()) waitingSince_ = Clock::now();
+    outbox_.push_back(std::move(out));
+    wake_();
+}
+
+std::optional<Outgoing> Peer::wrote(bool complete, Clock::time_point now) {
+    waitingSince_ = now;
+    if (!complete) return std::nullopt;
+    Outgoing out = std::move(outbox_.front());
+    outbox_.pop_front();
+    outboxBytes_ -= out.head.size() + out.payload.size();
+    if (outbox_.empty()) waitingSince_.reset();
+    return out;
+}
+
+bool Peer::overfull() const {
+    return outbox_.size() >= mostWaiting || outboxBytes_ >= mostWaitingBytes;
+}
+
+Clock::duration Peer::pause(Clock::time_point now) const {
+    const double owed = -allowance_ - secondsBetween(allowanceAt_, now) * limits_.requestsPerSecond;
+    if (owed <= 0.0) return Clock::duration::zero();
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(owed / limits_.requestsPerSecond));
+}
+
+void Peer::closeAfterWriting() {
+    closing_ = true;
+    wake_();
+}
+
+void Peer::closeNow() {
+    closed_ = true;
+    wake_();
+}
+
+std::optional<std::string> Peer::timedOut(Clock::time_point now) const {
+    if (!greeted() && secondsBetween(connected_, now) > limits_.helloSeconds) return "no hello";
+    if (messageBegan_ && secondsBetween(*messageBegan_, now) > limits_.messageSeconds) return "a message took too long";
+    if (waitingSince_ && secondsBetween(*waitingSince_, now) > limits_.writeSeconds) return "does not read";
+    if (open_.empty() && outbox_.empty() && secondsBetween(lastMessage_, now) > limits_.idleSeconds) return "idle";
+    return std::nullopt;
+}
+
+}  // namespace lumulus::service

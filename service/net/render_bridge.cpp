@@ -1,0 +1,118 @@
+#include "service/net/render_bridge.h"
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+#include <type_traits>
+#include <utility>
+
+#include "service/protocol/error_reply.h"
+#include "service/protocol/replies.h"
+
+namespace lumulus::service {
+
+namespace {
+
+unsigned encoderThreads() {
+    return std::max(1U, std::thread::hardware_concurrency());
+}
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+void stopIfCancelled(const Job& job) {
+    if (job.cancelled->load()) throw Cancelled{};
+}
+
+EncodedPictures picturesOf(const Job& job, const FrameRequest& request, const FrameResult& result) {
+    EncodedPictures pictures;
+    const EncodeOptions options{request.products, request.format, result.exposure};
+    for (const ViewResult& view : result.views) {
+        stopIfCancelled(job);
+        appendPicture(view.image, options, pictures);
+    }
+    if (request.format.hash) hashPayload(pictures);
+    return pictures;
+}
+
+EncodedPictures picturesOf(const Job& job, const Composite& request, const CompositeResult& result) {
+    stopIfCancelled(job);
+    EncodedPictures pictures;
+    appendPicture(result.image, {{Product::color}, request.format, result.exposure}, pictures);
+    if (request.format.hash) hashPayload(pictures);
+    return pictures;
+}
+
+Message messageOf(const Job& job, const FrameRequest& request, const FrameResult& result, EncodedPictures pictures,
+                  const FrameTimes& times) {
+    return frameReply({job.id, job.stream, job.number}, request, result, std::move(pictures), times);
+}
+
+Message messageOf(const Job& job, const Composite& request, const CompositeResult& result, EncodedPictures pictures,
+                  const FrameTimes& times) {
+    return compositeReply(job.id, request, result, std::move(pictures), times);
+}
+
+/// Encodes a picture, and tells in `report` what that took.
+template <class Asked, class Result>
+Message encoded(const Job& job, const Result& result, EncodingReport& report) {
+    const Asked& request = std::get<Asked>(*job.work);
+    const auto start = Clock::now();
+    EncodedPictures pictures = picturesOf(job, request, result);
+    report = {millisecondsSince(start), millisecondsSince(job.arrived), pictures.pixels};
+    return messageOf(job, request, result, std::move(pictures), {report.milliseconds, report.totalMilliseconds});
+}
+
+}  // namespace
+
+std::optional<RenderRequest> renderRequest(Request request) {
+    return std::visit(
+        [](auto&& one) -> std::optional<RenderRequest> {
+            using One = std::decay_t<decltype(one)>;
+            if constexpr (std::is_constructible_v<RenderRequest, One>)
+                return RenderRequest(std::forward<decltype(one)>(one));
+            else
+                return std::nullopt;
+        },
+        std::move(request));
+}
+
+RenderBridge::RenderBridge(const RenderConfig& config, Metrics& metrics, Send send)
+    : send_(std::move(send)), encoders_(encoderThreads()), service_(config, metrics, outlets()) {}
+
+RenderBridge::~RenderBridge() {
+    encoders_.stop();  // they call the service, which ends after this
+}
+
+RenderService::Outlets RenderBridge::outlets() {
+    RenderService::Outlets outlets;
+    outlets.reply = [this](ClientId client, std::uint64_t id, const Reply& reply) {
+        send_(client, encodeReply(id, reply), false);
+    };
+    outlets.encode = [this](FrameTask task) {
+        const ClientId client = task.job.client;
+        // std::function wants what can be copied
+        encoders_.submit(client,
+                         [this, shared = std::make_shared<const FrameTask>(std::move(task))] { encode(*shared); });
+    };
+    outlets.mostEncoding = std::size_t{2} * encoderThreads();
+    return outlets;
+}
+
+void RenderBridge::encode(const FrameTask& task) {
+    const Job& job = task.job;
+    try {
+        EncodingReport report;
+        const auto* const frame = std::get_if<FrameResult>(&task.result);
+        Message message = frame != nullptr ? encoded<FrameRequest>(job, *frame, report)
+                                           : encoded<Composite>(job, std::get<CompositeResult>(task.result), report);
+        service_.finish(task, report, [&] { send_(job.client, std::move(message), true); });
+    } catch (const Cancelled&) {
+        service_.failEncoding(task, {"cancelled", "cancelled on request", {}});
+    } catch (const std::exception& e) {
+        service_.failEncoding(task, {"internal", e.what(), {}});
+    }
+}
+
+}  // namespace lumulus::service

@@ -1,0 +1,159 @@
+#include "service/protocol/replies.h"
+
+#include "base/version.h"
+#include "service/protocol/error_reply.h"
+
+namespace lumulus::service {
+
+using nlohmann::json;
+
+namespace {
+
+json listOf(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+json bodyOf(const SceneDescription& scene) {
+    json body{{"name", scene.name},
+              {"width", scene.image.width},
+              {"height", scene.image.height},
+              {"exposure", scene.image.exposure},
+              {"sun", {{"direction_to", listOf(scene.sunDirection)}, {"irradiance", listOf(scene.sunIrradiance)}}},
+              {"seed", scene.seed},
+              {"generations", scene.generations},
+              {"collectors", scene.collectors},
+              {"device", scene.device},
+              {"warnings", scene.warnings},
+              {"center", listOf(scene.centre)},
+              {"radius", scene.radius}};
+    if (scene.extinction) body["extinction"] = *scene.extinction;
+    if (scene.asymmetry) body["g"] = *scene.asymmetry;
+    return body;
+}
+
+json bodyOf(const SceneState& scene) {
+    return {{"scene", scene.name},
+            {"generations", scene.photons.generations},
+            {"current_generations", scene.photons.current},
+            {"generations_wanted", scene.generationsWanted},
+            {"photons", scene.photons.photons()},
+            {"trace_milliseconds", scene.traceMilliseconds}};
+}
+
+json bodyOf(const SceneShown& shown) {
+    return {{"scene", shown.name},
+            {"photons", shown.photons.photons()},
+            {"generations", shown.photons.generations},
+            {"current_generations", shown.photons.current},
+            {"first_generation", shown.photons.firstGeneration},
+            {"photons_each", shown.photons.photonsEach},
+            {"repeat", shown.repeat},
+            {"oldest_seconds", shown.oldestSeconds},
+            {"noise", shown.noise ? json(*shown.noise) : json()}};
+}
+
+json millisecondsOf(const FrameResult& result, const FrameTimes& times) {
+    json passes = json::object();
+    double trace = 0.0;
+    for (const PassTime& pass : result.passes) {
+        passes[pass.name] = passes.value(pass.name, 0.0) + pass.milliseconds;
+        if (pass.stage == Stage::photons) trace += pass.milliseconds;
+    }
+    return {{"waited", result.waitedMilliseconds},
+            {"trace", trace},
+            {"draw", result.drawMilliseconds},
+            {"encode", times.encode},
+            {"total", times.total},
+            {"passes", std::move(passes)}};
+}
+
+Message messageOf(std::uint64_t id, const SceneDescription& scene) {
+    return {replyTo(MessageType::loadScene), id, bodyOf(scene).dump(), {}};
+}
+
+Message messageOf(std::uint64_t id, const StreamStopped& stopped) {
+    return {replyTo(MessageType::stopStream), id, json{{"found", stopped.found}}.dump(), {}};
+}
+
+Message messageOf(std::uint64_t id, const FrameCancelled& cancelled) {
+    return {replyTo(MessageType::cancel), id, json{{"found", cancelled.found}}.dump(), {}};
+}
+
+Message messageOf(std::uint64_t id, const LightChanged&) {
+    return {replyTo(MessageType::change), id, "{}", {}};
+}
+
+Message messageOf(std::uint64_t id, const Failure& failure) {
+    return errorReply(id, failure.code, failure.text, failure.where);
+}
+
+}  // namespace
+
+std::string welcomeText(const Welcome& welcome) {
+    const json body{{"version", protocolVersion},
+                    {"software", std::string("lumulus ") + version},
+                    {"scene", welcome.scene},
+                    {"quality", welcome.quality},
+                    {"limits",
+                     {{"json_bytes", welcome.messages.jsonBytes},
+                      {"payload_bytes", welcome.messages.payloadBytes},
+                      {"pixels", welcome.requests.pixels},
+                      {"views", welcome.requests.views},
+                      {"upload_bytes", welcome.requests.uploadBytes},
+                      {"streams", welcome.streams},
+                      {"queued_frames", welcome.queuedFrames}}}};
+    return body.dump();
+}
+
+Message encodeReply(std::uint64_t id, const Reply& reply) {
+    return std::visit([id](const auto& result) { return messageOf(id, result); }, reply);
+}
+
+Message statisticsReply(std::uint64_t id, const std::vector<std::pair<std::string_view, std::int64_t>>& counters,
+                        const std::optional<SceneState>& scene) {
+    json body = json::object();
+    for (const auto& [name, value] : counters) body[std::string(name)] = value;
+    if (scene) body["scene"] = bodyOf(*scene);
+    return {replyTo(MessageType::statistics), id, body.dump(), {}};
+}
+
+Message uploadReply(std::uint64_t id, std::uint64_t received, bool complete) {
+    return {replyTo(MessageType::upload), id, json{{"received", received}, {"complete", complete}}.dump(), {}};
+}
+
+bool budgetMet(const Budget& budget, const FrameResult& result, double totalMilliseconds) {
+    return (!budget.milliseconds || totalMilliseconds <= *budget.milliseconds) &&
+           (!budget.photons || result.shown.photons.photons() >= *budget.photons);
+}
+
+Message frameReply(const FrameMark& mark, const FrameRequest& request, const FrameResult& result,
+                   EncodedPictures pictures, const FrameTimes& times) {
+    json body = bodyOf(result.shown);
+    body["channel"] = request.channel;
+    body["number"] = mark.number;
+    body["time"] = request.time;
+    body["encoding"] = encodingName(request.format.encoding);
+    for (std::size_t i = 0; i < result.views.size(); ++i) {
+        pictures.views[i]["drawn_width"] = result.views[i].drawnWidth;
+        pictures.views[i]["drawn_height"] = result.views[i].drawnHeight;
+    }
+    body["views"] = std::move(pictures.views);
+    body["reduction"] = result.reduction;
+    body["sun_reduction"] = result.sunReduction;
+    body["budget_met"] = budgetMet(request.budget, result, times.total);
+    body["hash"] = std::move(pictures.hash);
+    body["milliseconds"] = millisecondsOf(result, times);
+    const auto type = replyTo(mark.stream ? MessageType::startStream : MessageType::frame);
+    return {type, mark.id, body.dump(), std::move(pictures.payload)};
+}
+
+Message compositeReply(std::uint64_t id, const Composite& request, const CompositeResult& result,
+                       EncodedPictures pictures, const FrameTimes& times) {
+    json body{{"scene", result.scene}, {"encoding", encodingName(request.format.encoding)}};
+    body["views"] = std::move(pictures.views);
+    body["hash"] = std::move(pictures.hash);
+    body["milliseconds"] = {{"waited", result.waitedMilliseconds}, {"total", times.total}};
+    return {replyTo(MessageType::composite), id, body.dump(), std::move(pictures.payload)};
+}
+
+}  // namespace lumulus::service

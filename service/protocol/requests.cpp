@@ -1,0 +1,159 @@
+#include "service/protocol/requests.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "service/protocol/frame_fields.h"
+
+namespace lumulus::service {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t longestName = 200, longestOverride = 1000, mostOverrides = 64;
+
+Hello readHello(JsonFields& fields) {
+    const auto version = fields.integer("version", 0, 65535);
+    if (version.value_or(protocolVersion) != protocolVersion)
+        throw RequestError("unsupported_version", "only version 1 of the protocol is spoken here", "version");
+    return {fields.text("token", longestName).value_or(""), fields.text("client", longestName).value_or("")};
+}
+
+LoadScene readLoadScene(JsonFields& fields, const std::vector<std::byte>& payload) {
+    LoadScene load;
+    load.name = fields.text("name", longestName).value_or("");
+    load.toml.assign(reinterpret_cast<const char*>(payload.data()), payload.size());
+    if (load.name.empty() && load.toml.empty())
+        throw RequestError("bad_request", "give the name of a scene, or its TOML as payload", "name");
+    if (!load.name.empty() && !load.toml.empty())
+        throw RequestError("bad_request", "give the name of a scene or its TOML, not both", "name");
+    load.vdb = fields.text("vdb", longestName).value_or("");
+    if (!load.vdb.empty() && !isHash(load.vdb))
+        throw RequestError("bad_request", "vdb must be the SHA-256 of an upload", "vdb");
+    load.overrides = fields.texts("set", mostOverrides, longestOverride).value_or(std::vector<std::string>{});
+    if (const auto quality = fields.choice("quality", {"draft", "interactive", "final"}))
+        load.quality = static_cast<scene::Quality>(*quality);
+    load.isPrivate = fields.flag("private").value_or(false);
+    return load;
+}
+
+Upload readUpload(JsonFields& fields, std::vector<std::byte> payload, const RequestLimits& limits) {
+    Upload upload;
+    upload.hash = fields.requiredText("hash", longestName);
+    if (!isHash(upload.hash))
+        throw RequestError("bad_request", "hash must be 64 hexadecimal digits in lower case", "hash");
+    upload.size = fields.requiredCount("size", std::uint64_t{1} << 53U);
+    if (upload.size > limits.uploadBytes)
+        throw RequestError("too_large", "an upload may hold " + std::to_string(limits.uploadBytes) + " bytes here",
+                           "size");
+    upload.offset = fields.requiredCount("offset", std::uint64_t{1} << 53U);
+    upload.bytes = std::move(payload);
+    if (upload.offset > upload.size || upload.bytes.size() > upload.size - upload.offset)
+        throw RequestError("bad_request", "the chunk goes beyond the size of the upload", "offset");
+    return upload;
+}
+
+StartStream readStartStream(JsonFields& fields, const RequestLimits& limits) {
+    StartStream start;
+    start.frame = readFrame(fields, limits);
+    start.maxRate = fields.number("max_rate", 0.01, 1000.0).value_or(start.maxRate);
+    start.onChange = fields.choice("when", {"always", "change"}).value_or(0) == 1;
+    return start;
+}
+
+Composite readComposite(JsonFields& fields, const std::vector<std::byte>& payload, const RequestLimits& limits) {
+    Composite composite;
+    composite.width = static_cast<int>(fields.requiredCount("width", 16384));
+    composite.height = static_cast<int>(fields.requiredCount("height", 16384));
+    const std::uint64_t pixels =
+        static_cast<std::uint64_t>(composite.width) * static_cast<std::uint64_t>(composite.height);
+    if (pixels == 0) throw RequestError("bad_request", "the picture has no pixels", "width");
+    if (pixels > limits.pixels)
+        throw RequestError("too_large", "a picture may hold " + std::to_string(limits.pixels) + " pixels here",
+                           "width");
+    if (const json* camera = fields.object("camera")) {
+        JsonFields inner(*camera, "camera");
+        composite.camera = readCamera(inner);
+        inner.finish();
+    }
+    composite.format = readFormat(fields);
+    if (payload.size() != pixels * 4 * sizeof(float))
+        throw RequestError("bad_request", "the payload must be 3 floats of colour a pixel, then 1 of depth a pixel");
+    static_assert(std::endian::native == std::endian::little);
+    composite.color.resize(pixels * 3);
+    composite.depth.resize(pixels);
+    std::memcpy(composite.color.data(), payload.data(), pixels * 3 * sizeof(float));
+    std::memcpy(composite.depth.data(), payload.data() + pixels * 3 * sizeof(float), pixels * sizeof(float));
+    const auto isFinite = [](float x) { return std::isfinite(x); };
+    if (!std::ranges::all_of(composite.color, isFinite) || !std::ranges::all_of(composite.depth, isFinite))
+        throw RequestError("bad_request", "colour and depth must be finite numbers");
+    return composite;
+}
+
+Change readChange(JsonFields& fields) {
+    Change change;
+    change.light = readLight(fields);
+    if (change.light.empty()) throw RequestError("bad_request", "nothing to change: give sun, extinction or wind");
+    change.cloud = fields.indexOrName("cloud", 65535, longestName);
+    if (change.cloud && !change.light.extinction)
+        throw RequestError("bad_request", "a cloud is named with an extinction for it", "cloud");
+    return change;
+}
+
+Request readRequest(Message& message, JsonFields& fields, const RequestLimits& limits) {
+    switch (message.type) {
+        case MessageType::hello:
+            return readHello(fields);
+        case MessageType::loadScene:
+            return readLoadScene(fields, message.payload);
+        case MessageType::upload:
+            return readUpload(fields, std::move(message.payload), limits);
+        case MessageType::frame:
+            return readFrame(fields, limits);
+        case MessageType::startStream:
+            return readStartStream(fields, limits);
+        case MessageType::stopStream:
+            return StopStream{fields.requiredCount("stream", std::uint64_t{1} << 53U)};
+        case MessageType::composite:
+            return readComposite(fields, message.payload, limits);
+        case MessageType::cancel:
+            return Cancel{fields.requiredCount("request", std::uint64_t{1} << 53U)};
+        case MessageType::statistics:
+            return StatisticsRequest{};
+        case MessageType::ping:
+            return Ping{};
+        case MessageType::change:
+            return readChange(fields);
+        case MessageType::error:
+            break;
+    }
+    throw RequestError("unknown_type",
+                       "there is no message of type " + std::to_string(static_cast<std::uint16_t>(message.type)));
+}
+
+bool takesPayload(MessageType type) {
+    return type == MessageType::loadScene || type == MessageType::upload || type == MessageType::composite;
+}
+
+}  // namespace
+
+bool isHash(const std::string& text) {
+    return text.size() == 64 &&
+           std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+}
+
+Request parseRequest(Message message, const RequestLimits& limits) {
+    const json object = parseObject(message.json);
+    JsonFields fields(object, "");
+    if (!message.payload.empty() && !takesPayload(message.type))
+        throw RequestError("bad_request", std::string(messageName(message.type)) + " takes no payload");
+    Request request = readRequest(message, fields, limits);
+    fields.finish();
+    return request;
+}
+
+}  // namespace lumulus::service

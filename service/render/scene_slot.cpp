@@ -1,0 +1,354 @@
+#include "service/render/scene_slot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "service/render/resample.h"
+#include "service/render/views.h"
+#include "service/values/request_error.h"
+
+namespace lumulus::service {
+
+namespace {
+
+/// Width in pixels of the small pictures by which costs and noise of a scene are known.
+constexpr int probeWidth = 96;
+
+double milliseconds(Clock::duration duration) {
+    return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+double millisecondsSince(Clock::time_point start) {
+    return milliseconds(Clock::now() - start);
+}
+
+Clock::duration inSeconds(double seconds) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+}  // namespace
+
+SceneSlot::SceneSlot(std::string slotKey, const scene::Scene& scene, const RenderConfig& config,
+                     const std::function<void()>& abandoned)
+    : key_(std::move(slotKey)), scene_(scene), limits_(config.limits), abandoned_(abandoned) {
+    deadline_ = Clock::now() + inSeconds(limits_.loadSeconds);
+    RendererOptions options;
+    options.device = config.device;
+    options.keepRing = true;
+    options.check = [this] { guard(); };
+    options.report = [this](std::string_view, std::uint64_t, std::uint64_t) { guard(); };
+    renderer_ = std::make_unique<Renderer>(scene_, options);
+    learnCosts();
+    probeNoise();
+    deadline_ = Clock::time_point::max();
+    abandoned_ = {};
+    lastTraced_ = Clock::now();
+    description_ = describe();
+}
+
+SceneSlot::Guarded::Guarded(SceneSlot& slot, const std::atomic<bool>* cancelled) : slot_(slot) {
+    slot_.cancelled_ = cancelled;
+    slot_.deadline_ = Clock::now() + inSeconds(slot_.limits_.generationSeconds);
+}
+
+SceneSlot::Guarded::~Guarded() {
+    slot_.cancelled_ = nullptr;
+    slot_.deadline_ = Clock::time_point::max();
+}
+
+void SceneSlot::guard() const {
+    stopIfInterrupted();
+    if (abandoned_) abandoned_();
+    if (cancelled_ != nullptr && cancelled_->load()) throw Cancelled{};
+    if (Clock::now() > deadline_) throw TooSlow("the scene takes longer than the limits of the service allow");
+}
+
+SceneDescription SceneSlot::describe() const {
+    SceneDescription result;
+    result.name = scene_.source;
+    result.image = scene_.image;
+    result.sunDirection = renderer_->sun().directionTo;
+    result.sunIrradiance = renderer_->sun().irradiance;
+    result.seed = scene_.photonMap.seed;
+    result.generations = renderer_->generationsWanted();
+    const Statistics statistics = renderer_->statistics();
+    result.collectors = statistics.collectors;
+    result.device = statistics.device;
+    result.warnings = statistics.warnings;
+    if (!scene_.clouds.empty()) {
+        result.extinction = renderer_->extinction();
+        const scene::Phase& phase = scene_.clouds[0].phase;
+        const bool readsG =
+            phase.model == scene::PhaseModel::henyeyGreenstein || phase.model == scene::PhaseModel::schlick;
+        if (readsG) result.asymmetry = phase.g;
+    }
+    result.centre = renderer_->bounds().centre;
+    result.radius = renderer_->bounds().radius();
+    return result;
+}
+
+PhotonState SceneSlot::photons() const {
+    const Generations ring = renderer_->generations();
+    return {ring.first, ring.count, ring.current, ring.photonsEach};
+}
+
+SceneState SceneSlot::state() const {
+    return {scene_.source, photons(), renderer_->generationsWanted(), costs_.traceMs()};
+}
+
+std::size_t SceneSlot::findCloud(const CloudReference& cloud) const {
+    const auto* const index = std::get_if<std::uint32_t>(&cloud);
+    if (index != nullptr && *index < scene_.clouds.size()) return *index;
+    for (std::size_t i = 0; index == nullptr && i < scene_.clouds.size(); ++i)
+        if (scene::nameOf(scene_, i) == std::get<std::string>(cloud)) return i;
+    const std::string wanted = index != nullptr ? std::to_string(*index) : "\"" + std::get<std::string>(cloud) + "\"";
+    throw RequestError("not_found", "the scene has no cloud " + wanted, "cloud");
+}
+
+void SceneSlot::apply(const LightChange& light, std::optional<std::size_t> cloud) {
+    bool changed = light.wind && renderer_->setWind(*light.wind);
+    try {
+        if (light.sunDirection || light.sunIrradiance) {
+            const scene::Sun now = renderer_->sun();
+            changed = renderer_->setSun(light.sunDirection.value_or(now.directionTo),
+                                        light.sunIrradiance.value_or(now.irradiance)) ||
+                      changed;
+        }
+        if (light.extinction) changed = renderer_->setExtinction(*light.extinction, cloud) || changed;
+    } catch (const InputError& e) {
+        throw RequestError("bad_request", e.what());
+    }
+    if (changed) ++revision_;
+}
+
+bool SceneSlot::wantsGeneration() const {
+    return renderer_->generations().current < renderer_->generationsWanted();
+}
+
+void SceneSlot::traceGeneration() {
+    const auto start = Clock::now();
+    {
+        const Guarded guarded(*this, nullptr);
+        renderer_->traceGeneration();
+    }
+    costs_.traced(millisecondsSince(start));
+    lastTraced_ = Clock::now();
+    tracedAt_.push_back(start);
+    while (tracedAt_.size() > static_cast<std::size_t>(renderer_->generations().count)) tracedAt_.pop_front();
+    ++revision_;
+    probeNoise();
+}
+
+/// Share of the shadow volume that is made at a time: small enough for the pauses of a stream.
+double SceneSlot::sharpenShare() const {
+    constexpr double longest = 4.0, least = 1.0 / 256.0;
+    const double whole = costs_.sunMs(1.0);
+    return whole > longest ? std::max(least, longest / whole) : 1.0;
+}
+
+void SceneSlot::sharpenSun() {
+    const auto start = Clock::now();
+    const double share = sharpenShare();
+    const bool whole = renderer_->sharpenSun(share);
+    costs_.lit(millisecondsSince(start), share);
+    lastSharpened_ = Clock::now();
+    if (!whole) return;
+    ++revision_;
+    probeNoise();
+}
+
+/// Decides how coarse the sun's shadow volume of the next picture may be, which is foreseen to take `picture`
+/// milliseconds besides. Returns the milliseconds that the shadow volume is foreseen to take in it.
+double SceneSlot::allowSun(std::optional<double> milliseconds, double picture) {
+    constexpr auto longestCoarse = std::chrono::milliseconds(100);  // between steps, whatever the deadlines
+    const bool missing = renderer_->sunReduction() == 0;
+    int allowed = CostModel::sunReductions.front();
+    if (milliseconds && missing) {
+        allowed = costs_.sunReductionFor(*milliseconds - picture);
+    } else if (milliseconds && wantsSun()) {
+        const double left = *milliseconds - picture;
+        const bool late = left < 0.0;  // whatever is left out
+        if (late || sharpenMs() <= left || Clock::now() - lastSharpened_ > longestCoarse) sharpenSun();
+        allowed = CostModel::sunReductions.back();
+    }
+    renderer_->allowSunReduction(allowed);
+    return missing ? costs_.sunMs(CostModel::sunShare(allowed)) : 0.0;
+}
+
+View SceneSlot::smallView() const {
+    View view = renderer_->sceneView();
+    view.image.height = std::clamp(probeWidth * view.image.height / view.image.width, 1, 4 * probeWidth);
+    view.image.width = probeWidth;
+    return view;
+}
+
+/// Looks at the scene in small where that tells more of its noise.
+void SceneSlot::probeNoise() {
+    const Generations ring = renderer_->generations();
+    if (!noise_.wants(ring.count) || ring.current < ring.count || renderer_->sunReduction() != 1) return;
+    noise_.add(renderer_->draw(smallView(), viewer_), ring.count, ring.photons());
+}
+
+/// Draws a small picture twice: the first one compiles shaders, the second one shows what pictures cost.
+void SceneSlot::learnCosts() {
+    const std::vector<View> views{smallView()};
+    FrameResult first, second;
+    drawViews(views, 1, first);
+    drawViews(views, 1, second);
+    noteDrawn(second, raysOf(views));
+}
+
+std::vector<View> SceneSlot::viewsOf(const std::vector<ViewRequest>& requests) const {
+    return service::viewsOf(requests, renderer_->sceneView(), renderer_->bounds(), limits_.requests.pixels);
+}
+
+std::uint64_t SceneSlot::raysOf(const std::vector<View>& views) const {
+    std::uint64_t rays = 0;
+    for (const View& view : views) {
+        const auto across = static_cast<std::uint64_t>(renderer_->raysAcross(view));
+        rays += pixelsOf({view}) * across * across;
+    }
+    return rays;
+}
+
+bool SceneSlot::needsGeneration(const Job& job, const FrameRequest& frame) const {
+    if (!wantsGeneration()) return false;
+    const Generations ring = renderer_->generations();
+    if (frame.budget.photons)
+        return static_cast<std::uint64_t>(ring.current) * ring.photonsEach < *frame.budget.photons ||
+               (ring.current == 0 && *frame.budget.photons > 0);
+    if (!frame.budget.milliseconds) return !job.stream;  // a stream gets what is there
+    const double left = *frame.budget.milliseconds - millisecondsSince(job.arrived);
+    const std::vector<View> views = viewsOf(frame.views);
+    double after = costs_.drawMs(views.size(), raysOf(views)) + costs_.encodeMs(frame.format.encoding, pixelsOf(views));
+    if (renderer_->sunReduction() == 0) after += costs_.sunMs(CostModel::sunShare(CostModel::sunReductions.back()));
+    return costs_.traceMs() > 0.0 && costs_.traceMs() + after <= left;
+}
+
+void SceneSlot::drawViews(const std::vector<View>& views, int reduction, FrameResult& result) {
+    for (const View& view : views) {
+        const auto start = Clock::now();
+        const View small = reduction > 1 ? reducedView(view, reduction) : view;
+        ViewResult drawn{renderer_->draw(small, viewer_), 0, 0};
+        drawn.drawnWidth = drawn.image.width;
+        drawn.drawnHeight = drawn.image.height;
+        if (reduction > 1) drawn.image = enlarged(drawn.image, view, small);
+        result.drawMilliseconds += millisecondsSince(start);
+        for (const PassTime& pass : renderer_->statistics().passes)
+            if (pass.stage != Stage::photons) result.passes.push_back(pass);
+        drawn.image.attributes["scene"] = scene_.source;
+        drawn.image.attributes["seed"] = std::to_string(scene_.photonMap.seed);
+        drawn.image.attributes["software"] = std::string("lumulus ") + version;
+        drawn.image.attributes["samples"] = std::to_string(renderer_->generations().photons());
+        result.views.push_back(std::move(drawn));
+    }
+}
+
+/// What the passes of photons took since the last frame.
+std::vector<PassTime> SceneSlot::tracePasses() {
+    std::vector<PassTime> since;
+    for (const PassTime& pass : renderer_->statistics().passes)
+        if (pass.stage == Stage::photons) {
+            double& total = passTotals_[pass.name];
+            if (pass.milliseconds > total) since.push_back({pass.name, pass.milliseconds - total, pass.stage});
+            total = pass.milliseconds;
+        }
+    return since;
+}
+
+void SceneSlot::noteDrawn(const FrameResult& result, std::uint64_t rays) {
+    double fixed = 0.0, sun = 0.0;
+    for (const PassTime& pass : result.passes) {
+        if (pass.stage == Stage::light) fixed += pass.milliseconds;
+        if (pass.stage == Stage::shadowVolume) sun += pass.milliseconds;
+    }
+    if (sun > 0.0) costs_.lit(sun, CostModel::sunShare(renderer_->sunReduction()));
+    const auto views = static_cast<double>(result.views.size());
+    costs_.drawn(fixed / views, std::max(0.0, result.drawMilliseconds - sun) - fixed * (1.0 - 1.0 / views), rays);
+}
+
+void SceneSlot::noteEncoded(Encoding encoding, double milliseconds, std::uint64_t pixels) {
+    costs_.encoded(encoding, milliseconds, pixels);
+}
+
+/// What `render` needs to make the same picture, as values of --set.
+std::vector<std::string> SceneSlot::repeatOverrides() const {
+    const Generations ring = renderer_->generations();
+    std::vector<std::string> overrides;
+    if (ring.count > 0)
+        overrides = {fmt::format("photon_map.first_generation={}", ring.first),
+                     fmt::format("photon_map.generations={}", ring.count),
+                     fmt::format("photon_map.photons={}", ring.photons())};
+    const scene::Sun& sun = renderer_->sun();
+    if (const glm::dvec3 d = sun.directionTo; d != scene_.sun.directionTo)
+        overrides.push_back(fmt::format("sun.direction_to=[{},{},{}]", d.x, d.y, d.z));
+    if (const glm::dvec3 e = sun.irradiance; e != scene_.sun.irradiance)
+        overrides.push_back(fmt::format("sun.irradiance=[{},{},{}]", e.x, e.y, e.z));
+    for (std::size_t i = 0; i < scene_.clouds.size(); ++i)
+        if (renderer_->extinction(i) != scene_.clouds[i].extinction)
+            overrides.push_back(fmt::format("cloud.{}.extinction={}", i, renderer_->extinction(i)));
+    return overrides;
+}
+
+SceneShown SceneSlot::shown() const {
+    const PhotonState ring = photons();
+    const double age = tracedAt_.empty() ? 0.0 : millisecondsSince(tracedAt_.front()) / 1e3;
+    return {scene_.source, ring, age, noise_.relMse(ring.photons()), repeatOverrides()};
+}
+
+FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {
+    const auto start = Clock::now();
+    const std::vector<View> views = viewsOf(frame.views);
+    const std::uint64_t pixels = pixelsOf(views), rays = raysOf(views);
+    const Encoding encoding = frame.format.encoding;
+    FrameResult result;
+    result.waitedMilliseconds = milliseconds(start - job.arrived);
+    const std::optional<double> limit = frame.budget.milliseconds;
+    const double picture = costs_.drawMs(views.size(), rays) + costs_.encodeMs(encoding, pixels);
+    const double sun = allowSun(limit ? std::optional(*limit - result.waitedMilliseconds) : std::nullopt, picture);
+    const double spent = millisecondsSince(job.arrived) + sun;
+    if (limit) result.reduction = costs_.reductionFor(*limit - spent, views.size(), rays, pixels, encoding);
+
+    renderer_->setTime(frame.time);
+    {
+        const Guarded guarded(*this, job.cancelled.get());
+        drawViews(views, result.reduction, result);
+    }
+    const auto area = static_cast<std::uint64_t>(result.reduction * result.reduction);
+    noteDrawn(result, result.reduction == 1 ? rays : pixels / area);
+
+    std::ranges::copy(tracePasses(), std::back_inserter(result.passes));
+    result.shown = shown();
+    result.exposure = scene_.image.exposure;
+    result.sunReduction = std::max(1, renderer_->sunReduction());
+    return result;
+}
+
+CompositeResult SceneSlot::composite(const Job& job, const Composite& composite) {
+    CompositeResult result;
+    result.scene = scene_.source;
+    result.exposure = scene_.image.exposure;
+    result.waitedMilliseconds = millisecondsSince(job.arrived);
+    ViewRequest request;
+    request.camera = composite.camera;
+    request.width = composite.width;
+    request.height = composite.height;
+    const View view = viewsOf({request}).front();
+    LayeredImage picture;
+    picture.width = composite.width;
+    picture.height = composite.height;
+    picture.layer("A", 1.0F);
+    const char* names[3] = {"R", "G", "B"};
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        std::vector<float>& layer = picture.layer(names[channel]);
+        for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = composite.color[3 * i + channel];
+    }
+    const Guarded guarded(*this, job.cancelled.get());
+    result.image = renderer_->throughFog(view, std::move(picture), composite.depth);
+    return result;
+}
+
+}  // namespace lumulus::service

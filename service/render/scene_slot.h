@@ -1,0 +1,123 @@
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "render/renderer.h"
+#include "scene/scene.h"
+#include "service/render/cost_model.h"
+#include "service/render/noise.h"
+#include "service/render/render_config.h"
+#include "service/render/scheduler.h"
+#include "service/values/results.h"
+
+namespace lumulus::service {
+
+/// Thrown where nobody waits any more for the work at hand.
+struct Cancelled {};
+
+/// Thrown where a scene takes longer than the limits allow; its renderer is of no more use.
+class TooSlow : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A scene that is served: its renderer, and what its work costs. The renderer owns light, extinction and wind; the
+/// scene as it was loaded never changes. Not for several threads, but for key(), scene(), description() and
+/// findCloud().
+class SceneSlot {
+  public:
+    /// Loads and prepares the scene, and draws a small picture, so that shaders are compiled and costs known.
+    /// `abandoned` is called between the steps; what it throws ends the load. Errors: InputError, Error, TooSlow.
+    SceneSlot(std::string slotKey, const scene::Scene& scene, const RenderConfig& config,
+              const std::function<void()>& abandoned);
+
+    const std::string& key() const { return key_; }
+    /// The scene as it was loaded.
+    const scene::Scene& scene() const { return scene_; }
+    /// The scene as it was when it was loaded.
+    const SceneDescription& description() const { return description_; }
+    SceneState state() const;
+
+    /// Index of a cloud. Errors: RequestError `not_found` where the scene has no such cloud.
+    std::size_t findCloud(const CloudReference& cloud) const;
+    /// `cloud`: whose extinction changes; all without it. Errors: RequestError where the scene cannot have such a light.
+    void apply(const LightChange& light, std::optional<std::size_t> cloud = {});
+
+    /// Whether the ring lacks generations under the light of now.
+    bool wantsGeneration() const;
+    /// Errors: TooSlow.
+    void traceGeneration();
+    double traceMs() const { return costs_.traceMs(); }
+    /// Whether pictures show the sun by a shadow volume of reduced resolution.
+    bool wantsSun() const { return renderer_->sunReduction() > 1; }
+    /// Makes a part of the shadow volume's full resolution.
+    void sharpenSun();
+    double sharpenMs() const { return costs_.sunMs(sharpenShare()); }
+    Clock::time_point lastTraced() const { return lastTraced_; }
+    /// A number that changes with everything that changes pictures of the same view.
+    std::uint64_t revision() const { return revision_; }
+
+    /// Whether another generation belongs into this frame before it is drawn.
+    bool needsGeneration(const Job& job, const FrameRequest& frame) const;
+    /// Errors: Cancelled, RequestError, TooSlow.
+    FrameResult draw(const Job& job, const FrameRequest& frame);
+    /// Draws the client's picture through the fog of the scene. Errors: Cancelled, RequestError, TooSlow.
+    CompositeResult composite(const Job& job, const Composite& composite);
+    /// Takes what encoding a picture of this scene cost.
+    void noteEncoded(Encoding encoding, double milliseconds, std::uint64_t pixels);
+
+  private:
+    /// While it lives, work for a job ends where the job is cancelled or takes too long.
+    class Guarded {
+      public:
+        Guarded(SceneSlot& slot, const std::atomic<bool>* cancelled);
+        Guarded(const Guarded&) = delete;
+        Guarded& operator=(const Guarded&) = delete;
+        ~Guarded();
+
+      private:
+        SceneSlot& slot_;
+    };
+
+    SceneDescription describe() const;
+    std::vector<View> viewsOf(const std::vector<ViewRequest>& requests) const;
+    std::uint64_t raysOf(const std::vector<View>& views) const;
+    View smallView() const;
+    void learnCosts();
+    void probeNoise();
+    void guard() const;
+    double sharpenShare() const;
+    double allowSun(std::optional<double> milliseconds, double picture);
+    void drawViews(const std::vector<View>& views, int reduction, FrameResult& result);
+    void noteDrawn(const FrameResult& result, std::uint64_t rays);
+    std::vector<PassTime> tracePasses();
+    PhotonState photons() const;
+    std::vector<std::string> repeatOverrides() const;
+    SceneShown shown() const;
+
+    std::string key_;
+    const scene::Scene scene_;
+    const RenderLimits& limits_;
+    std::function<void()> abandoned_;
+    const std::atomic<bool>* cancelled_ = nullptr;  // of the job that is drawn
+    Clock::time_point deadline_ = Clock::time_point::max();
+    std::unique_ptr<Renderer> renderer_;
+    ViewState viewer_;  ///< of all views of the scene, which take their turns; gone before the renderer
+    SceneDescription description_;
+    CostModel costs_;
+    NoiseEstimate noise_;
+    std::uint64_t revision_ = 1;
+    std::deque<Clock::time_point> tracedAt_;  // of the generations in the ring
+    Clock::time_point lastTraced_, lastSharpened_;
+    std::map<std::string, double> passTotals_;  // of the passes of photons, when the last frame was made
+};
+
+}  // namespace lumulus::service

@@ -1,0 +1,87 @@
+#include "service/render/scene_store.h"
+
+#include <algorithm>
+
+#include "service/values/request_error.h"
+
+namespace lumulus::service {
+
+SlotPointer SceneStore::shownTo(ClientId client) const {
+    const auto it = shownTo_.find(client);
+    return it == shownTo_.end() ? nullptr : it->second;
+}
+
+SlotPointer SceneStore::find(const std::string& key) const {
+    const auto it = std::ranges::find_if(slots_, [&](const SlotPointer& slot) { return slot->key() == key; });
+    return it == slots_.end() ? nullptr : *it;
+}
+
+bool SceneStore::holds(const SlotPointer& slot) const {
+    return std::ranges::find(slots_, slot) != slots_.end();
+}
+
+bool SceneStore::seen(const SlotPointer& slot) const {
+    return slot == default_ || std::ranges::any_of(shownTo_, [&](const auto& entry) { return entry.second == slot; });
+}
+
+SlotPointer SceneStore::keep(const SlotPointer& slot) {
+    SlotPointer dropped;
+    if (slots_.size() >= most_) {
+        const auto unused = std::ranges::find_if_not(slots_, [this](const SlotPointer& one) { return seen(one); });
+        if (unused == slots_.end())
+            throw RequestError("busy", "all " + std::to_string(most_) + " scenes that the service holds are in use");
+        dropped = *unused;
+        drop(dropped);
+    }
+    slots_.push_back(slot);
+    publish(*slot);
+    return dropped;
+}
+
+void SceneStore::drop(const SlotPointer& slot) {
+    std::erase(slots_, slot);
+    published_.erase(slot->key());
+    for (auto& [client, shown] : shownTo_)
+        if (shown == slot) shown = nullptr;
+    if (default_ == slot) default_ = nullptr;
+}
+
+void SceneStore::publish(const SceneSlot& slot) {
+    const bool held = std::ranges::any_of(slots_, [&](const SlotPointer& one) { return one.get() == &slot; });
+    if (held) published_[slot.key()] = {slot.revision(), slot.state()};
+}
+
+const SceneStore::Published* SceneStore::published(ClientId client) const {
+    const SlotPointer slot = shownTo(client);
+    if (!slot) return nullptr;
+    const auto it = published_.find(slot->key());
+    return it == published_.end() ? nullptr : &it->second;
+}
+
+std::uint64_t SceneStore::revision(ClientId client) const {
+    const Published* known = published(client);
+    return known == nullptr ? 0 : known->revision;
+}
+
+std::optional<SceneState> SceneStore::state(ClientId client) const {
+    const Published* known = published(client);
+    return known == nullptr ? std::nullopt : std::optional(known->state);
+}
+
+bool SceneStore::starves(const SceneSlot& slot, Clock::time_point now) {
+    constexpr auto longestWithoutGeneration = std::chrono::seconds(1);
+    return slot.wantsGeneration() && now - slot.lastTraced() > longestWithoutGeneration;
+}
+
+SlotPointer SceneStore::toRefine(Clock::time_point now, std::optional<Clock::time_point> due) const {
+    SlotPointer best;
+    for (const SlotPointer& slot : slots_)
+        if (seen(slot) && (slot->wantsGeneration() || slot->wantsSun()) &&
+            (!best || slot->lastTraced() < best->lastTraced()))
+            best = slot;
+    if (!best || !due || starves(*best, now)) return best;
+    const double step = best->wantsSun() ? best->sharpenMs() : best->traceMs();
+    return now + std::chrono::duration<double, std::milli>(step) < std::max(*due, now) ? best : nullptr;
+}
+
+}  // namespace lumulus::service

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scene/quality.h"
+#include "view/view.h"
+
+/// What clients ask of the scenes that are served, as values that no protocol owns. Where a field is absent,
+/// docs/protocol.md says what stands in its place.
+namespace lumulus::service {
+
+using ClientId = std::uint64_t;
+using Clock = std::chrono::steady_clock;
+
+struct LoadScene {
+    std::string name;  ///< in the folder of scenes; empty: `toml`
+    std::string toml;
+    std::string vdb;  ///< SHA-256 of an upload that takes the place of the scene's cloud
+    std::vector<std::string> overrides;
+    std::optional<scene::Quality> quality;
+    bool isPrivate = false;  ///< photons and light of its own
+};
+
+/// A piece of a file.
+struct Upload {
+    std::string hash;  ///< SHA-256 of the whole file, 64 hexadecimal digits
+    std::uint64_t size = 0;
+    std::uint64_t offset = 0;
+    std::vector<std::byte> bytes;
+};
+
+/// A change of light, medium or wind. Photons traced before it give way to new ones generation by generation.
+struct LightChange {
+    std::optional<glm::dvec3> sunDirection;   ///< unit vector towards the sun
+    std::optional<glm::dvec3> sunIrradiance;  ///< W/m² for each colour channel
+    std::optional<double> extinction;         ///< 1/m where the density is 1
+    std::optional<glm::dvec3> wind;           ///< m/s, by which the cloud drifts with the time of frames
+
+    bool empty() const { return !sunDirection && !sunIrradiance && !extinction && !wind; }
+};
+
+/// A cloud of the scene, by its index or by its name.
+using CloudReference = std::variant<std::uint32_t, std::string>;
+
+struct CameraRequest {
+    std::optional<glm::dvec3> position, target, up;
+    std::optional<glm::dquat> orientation;
+    std::optional<double> verticalFov;  ///< degrees
+    std::optional<Frustum> frustum;
+    std::optional<scene::Projection> projection;
+};
+
+struct ViewRequest {
+    CameraRequest camera;
+    std::optional<int> width, height;
+    std::optional<Tile> tile;
+};
+
+enum class Product { color, cloud, transmittance, depth, front };
+enum class Encoding { half, raw, exr, png, jpeg };
+inline constexpr std::size_t encodings = 5;
+
+/// In which form a picture is sent.
+struct PictureFormat {
+    Encoding encoding = Encoding::half;
+    int quality = 85;                ///< of JPEG, 1 to 100
+    std::optional<double> exposure;  ///< stops, for PNG and JPEG; absent: the scene's
+    bool hash = true;                ///< whether the reply holds the payload's SHA-256
+};
+
+/// What a frame may cost. Without either: all generations that the scene asks for.
+struct Budget {
+    std::optional<double> milliseconds;
+    std::optional<std::uint64_t> photons;
+};
+
+struct FrameRequest {
+    std::uint32_t channel = 0;
+    bool queue = false;              ///< wait behind the frames of the channel instead of taking their place
+    std::vector<ViewRequest> views;  ///< at least one
+    double time = 0.0;               ///< seconds, for the wind
+    LightChange light;
+    Budget budget;
+    std::vector<Product> products{Product::color};
+    PictureFormat format;
+};
+
+struct StartStream {
+    FrameRequest frame;
+    double maxRate = 30.0;  ///< frames a second
+    bool onChange = false;  ///< only frames that differ from the one before
+};
+
+struct StopStream {
+    std::uint64_t stream = 0;
+};
+
+/// Colour and depth of another renderer, to be seen through the scene's medium.
+struct Composite {
+    int width = 0, height = 0;
+    CameraRequest camera;
+    PictureFormat format;
+    std::vector<float> color;  ///< RGB, pixel by pixel
+    std::vector<float> depth;  ///< metres from the eye, unless the scene's `fog.depth` says otherwise
+};
+
+struct Cancel {
+    std::uint64_t request = 0;
+};
+
+struct Change {
+    LightChange light;
+    std::optional<CloudReference> cloud;  ///< whose extinction changes; absent: all clouds
+};
+
+/// Requests that the render service answers.
+using RenderRequest = std::variant<LoadScene, FrameRequest, StartStream, StopStream, Composite, Cancel, Change>;
+
+/// Limits of requests, from the configuration.
+struct RequestLimits {
+    std::uint64_t pixels = 1U << 23U;  ///< of all views of a frame together
+    std::uint32_t views = 16;
+    std::uint64_t uploadBytes = std::uint64_t{1} << 30U;
+};
+
+}  // namespace lumulus::service

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/image.h"
+#include "base/pass_time.h"
+#include "service/values/requests.h"
+
+/// What the render service answers, as values. A protocol encodes them.
+namespace lumulus::service {
+
+/// The photons that pictures of a scene show.
+struct PhotonState {
+    std::uint64_t firstGeneration = 0;
+    int generations = 0;
+    int current = 0;  ///< generations that were traced under the light and extinction of now
+    std::uint64_t photonsEach = 0;
+
+    std::uint64_t photons() const { return photonsEach * static_cast<std::uint64_t>(generations); }
+};
+
+/// What a scene is, at the time it was loaded.
+struct SceneDescription {
+    std::string name;
+    scene::Image image;
+    glm::dvec3 sunDirection{0.0}, sunIrradiance{0.0};
+    std::uint64_t seed = 0;
+    int generations = 0;  ///< that fill the ring
+    std::uint64_t collectors = 0;
+    std::string device;
+    std::vector<std::string> warnings;
+    std::optional<double> extinction;  ///< 1/m; absent where the scene has no cloud
+    std::optional<double> asymmetry;   ///< g of the phase function; absent for those that have none
+    glm::dvec3 centre{0.0};            ///< metres, of a ball around the clouds
+    double radius = 0.0;               ///< metres
+};
+
+/// How far the photons of a scene are.
+struct SceneState {
+    std::string name;
+    PhotonState photons;
+    int generationsWanted = 0;
+    double traceMilliseconds = 0.0;  ///< of a generation, lately
+};
+
+/// A picture of one view. Its size is that of the view; it may have been drawn smaller and enlarged.
+struct ViewResult {
+    LayeredImage image;
+    int drawnWidth = 0, drawnHeight = 0;
+};
+
+/// What of the scene a frame shows.
+struct SceneShown {
+    std::string name;
+    PhotonState photons;
+    double oldestSeconds = 0.0;       ///< since the oldest generation was traced
+    std::optional<double> noise;      ///< estimated relMSE of the photons' noise; absent before it is known
+    std::vector<std::string> repeat;  ///< values of `render --set` with which the same picture is drawn
+};
+
+/// A drawn frame, before it is encoded.
+struct FrameResult {
+    SceneShown shown;
+    std::vector<ViewResult> views;
+    double exposure = 0.0;  ///< stops, of the scene
+    int reduction = 1;      ///< by which the sides of the pictures were divided
+    int sunReduction = 1;   ///< by which the sides of the sun's shadow volume were divided
+    double waitedMilliseconds = 0.0;
+    double drawMilliseconds = 0.0;
+    std::vector<PassTime> passes;  ///< those of photons since the scene's last frame, and those of this frame
+};
+
+/// A picture of another renderer as seen through the scene's medium, before it is encoded.
+struct CompositeResult {
+    std::string scene;
+    LayeredImage image;
+    double exposure = 0.0;  ///< stops, of the scene
+    double waitedMilliseconds = 0.0;
+};
+
+struct StreamStopped {
+    bool found = false;
+};
+
+struct FrameCancelled {
+    bool found = false;  ///< whether it still waited
+};
+
+struct LightChanged {};
+
+/// An answer to a request that failed.
+struct Failure {
+    std::string code, text, where;  ///< as in RequestError
+};
+
+using Reply = std::variant<SceneDescription, StreamStopped, FrameCancelled, LightChanged, Failure>;
+
+}  // namespace lumulus::service

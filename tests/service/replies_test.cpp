@@ -1,0 +1,85 @@
+// Results as messages.
+#include "service/protocol/replies.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/pass_time.h"
+
+namespace lumulus::service {
+namespace {
+
+using nlohmann::json;
+
+FrameResult drawn() {
+    FrameResult result;
+    result.shown.name = "small.toml";
+    result.shown.photons = {3, 4, 2, 100};
+    result.views.resize(1);
+    result.views[0].drawnWidth = 8;
+    result.views[0].drawnHeight = 4;
+    result.waitedMilliseconds = 1.0;
+    result.drawMilliseconds = 20.0;
+    result.passes = {{"march", 5.0, Stage::draw},
+                     {"march", 6.0, Stage::draw},
+                     {"trace", 2.0, Stage::photons},
+                     {"gather", 1.0, Stage::photons}};
+    return result;
+}
+
+json reply(const FrameRequest& request, const FrameResult& result, double total) {
+    EncodedPictures pictures;
+    pictures.views.push_back({{"width", 16}});
+    const Message message = frameReply({7, true, 5}, request, result, std::move(pictures), {3.0, total});
+    EXPECT_EQ(message.type, replyTo(MessageType::startStream));
+    EXPECT_EQ(message.id, 7U);
+    return json::parse(message.json);
+}
+
+TEST(Replies, AFrameTellsItsTimesByStageAndByPass) {
+    FrameRequest request;
+    request.channel = 2;
+    const json body = reply(request, drawn(), 30.0);
+    EXPECT_EQ(body["milliseconds"], json::parse(R"({"waited":1.0,"trace":3.0,"draw":20.0,"encode":3.0,"total":30.0,
+        "passes":{"march":11.0,"trace":2.0,"gather":1.0}})"));
+    EXPECT_EQ(body["photons"], 400);
+    EXPECT_EQ(body["current_generations"], 2);
+    EXPECT_EQ(body["channel"], 2);
+    EXPECT_EQ(body["number"], 5);
+    EXPECT_EQ(body["views"][0]["width"], 16);
+    EXPECT_EQ(body["views"][0]["drawn_width"], 8);
+    EXPECT_TRUE(body["noise"].is_null());
+    EXPECT_TRUE(body["hash"].is_null());
+}
+
+TEST(Replies, ABudgetCountsTheEncoding) {
+    FrameRequest request;
+    EXPECT_EQ(reply(request, drawn(), 30.0)["budget_met"], true);
+    request.budget.milliseconds = 30.0;
+    EXPECT_EQ(reply(request, drawn(), 30.0)["budget_met"], true);
+    EXPECT_EQ(reply(request, drawn(), 30.5)["budget_met"], false);
+    request.budget = {};
+    request.budget.photons = 401;
+    EXPECT_EQ(reply(request, drawn(), 1.0)["budget_met"], false);
+}
+
+TEST(Replies, AnswersHaveTheTypeOfTheirRequest) {
+    const auto type = [](const Reply& reply) { return encodeReply(1, reply).type; };
+    EXPECT_EQ(type(SceneDescription{}), replyTo(MessageType::loadScene));
+    EXPECT_EQ(type(StreamStopped{}), replyTo(MessageType::stopStream));
+    EXPECT_EQ(type(FrameCancelled{}), replyTo(MessageType::cancel));
+    EXPECT_EQ(type(LightChanged{}), replyTo(MessageType::change));
+    const Message failure = encodeReply(1, Failure{"busy", "too many", "streams"});
+    EXPECT_EQ(failure.type, MessageType::error);
+    EXPECT_EQ(json::parse(failure.json), json::parse(R"({"code":"busy","message":"too many","where":"streams"})"));
+}
+
+TEST(Replies, StatisticsHaveTheSceneWhereThereIsOne) {
+    EXPECT_EQ(statisticsReply(1, {{"frames_total", 3}}, std::nullopt).json, R"({"frames_total":3})");
+    const Message message = statisticsReply(1, {}, SceneState{"small.toml", {0, 4, 4, 100}, 20, 1.5});
+    EXPECT_EQ(json::parse(message.json)["scene"]["photons"], 400);
+}
+
+}  // namespace
+}  // namespace lumulus::service
