@@ -33,7 +33,7 @@ class Line {
     Line(std::string_view text, std::string where) : fields_(split(text, ',')), where_(std::move(where)) {}
 
     [[noreturn]] void refuse(const std::string& what) const {
-        throw InputError(what, where_, "give the table that scripts/compare-blender.sh makes");
+        throw InputError(what, where_, "give the table that scripts/study/run cycles makes");
     }
 
     Row row() const {

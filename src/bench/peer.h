@@ -9,7 +9,7 @@
 namespace lumulus::bench {
 
 /// Rows of another renderer from a table with the columns of error.csv, each row's method "Cycles"
-/// (scripts/compare-blender.sh makes it). Errors: InputError that names the file and line.
+/// (scripts/study/run cycles makes it). Errors: InputError that names the file and line.
 std::vector<Row> readPeer(const std::filesystem::path& path);
 
 /// The same for text.

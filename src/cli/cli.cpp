@@ -186,8 +186,7 @@ void addBench(CLI::App& app, BenchOptions& options, Action& action) {
     command->add_option("--seeds", options.seeds, "Pictures for each time")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    command
-        ->add_option("--cycles", options.cycles, "Points of Blender's Cycles, from scripts/compare-blender.sh (.csv)")
+    command->add_option("--cycles", options.cycles, "Points of Blender's Cycles, from scripts/study/run cycles (.csv)")
         ->check(notEmpty());
     command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
         ->allow_extra_args(false);

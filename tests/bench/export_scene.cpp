@@ -1,5 +1,5 @@
 // A scene for other renderers: export_scene SCENE FOLDER [section.key=value…] writes FOLDER/scene.json, all values
-// filled in, and FOLDER/cloud.vdb, the density over its maximum, for scripts/compare-blender.sh. In both, lengths are
+// filled in, and FOLDER/cloud.vdb, the density over its maximum, for scripts/study/run cycles. In both, lengths are
 // in units of 100 m and z points up, as Blender has them (it drops scattering weaker than 1e-5 per unit); directions
 // too.
 #include <algorithm>
