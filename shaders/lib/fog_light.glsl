@@ -3,6 +3,7 @@
 #define LUMULUS_LIB_FOG_LIGHT
 
 #include "shared/fog.h"
+#include "lib/uniform_layer.glsl"
 #include "lib/view.glsl"
 
 struct FogLight {
@@ -15,7 +16,7 @@ FogLight fogLight(ivec2 pixel) {
     vec3 origin, direction;
     viewRay(push.view, pixel, 1, origin, direction);
     const vec4 seen = texelFetch(radiance, pixel, 0);  // alpha: how much of the pixel the layer covers
-    const float distance_ = texelFetch(distances, pixel, 0).r;
+    const float distance_ = layerTexel(distances, pixel).r;
     FogPath path = clearPath();
     for (int i = 0; i < push.media; ++i)
         addMedium(path, media[i], densityIntegral(media[i], origin, direction, distance_, push.skyDistance));

@@ -65,28 +65,39 @@ LayeredImage emptyFrame(const Tile& tile, const glm::dvec3& radiance) {
     return image;
 }
 
-LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& sun, const scene::Sky& sky, int rays,
-                      const Tile& without) {
-    LayeredImage image = emptyFrame(tile, sky.radiance);
+std::vector<shared::SunPixel> sunPixels(const Camera& camera, const Tile& tile, const scene::Sun& sun,
+                                        const scene::Sky& sky, int rays, const Tile& without) {
     const double radius = 0.5 * sun.angularDiameter * std::numbers::pi / 180.0;
     const double disc = std::numbers::pi * std::pow(std::sin(radius), 2);
-    if (!(disc > 0.0) || !maySeeSun(camera, sun.directionTo, radius)) return image;
-    const std::array<std::vector<float>*, 3> colours{&image.layer("R"), &image.layer("G"), &image.layer("B")};
+    if (!(disc > 0.0) || !maySeeSun(camera, sun.directionTo, radius)) return {};
+    std::vector<std::vector<shared::SunPixel>> rows(static_cast<std::size_t>(tile.height));
     tbb::parallel_for(tile.y, tile.y + tile.height, [&](int y) {
-        const auto fill = [&](int first, int end) {
+        const auto find = [&](int first, int end) {
             for (int x = first; x < end; ++x) {
                 const double share = sunInPixel(camera, x, y, rays, sun.directionTo, radius);
-                const auto i = static_cast<std::size_t>(y - tile.y) * static_cast<std::size_t>(tile.width) +
-                               static_cast<std::size_t>(x - tile.x);
-                for (int c = 0; share > 0.0 && c < 3; ++c)
-                    (*colours[static_cast<std::size_t>(c)])[i] =
-                        static_cast<float>(sky.radiance[c] + share * sun.irradiance[c] / disc);
+                if (share > 0.0)
+                    rows[static_cast<std::size_t>(y - tile.y)].push_back(
+                        {{x, y}, glm::vec3(sky.radiance + share * sun.irradiance / disc)});
             }
         };
         const bool crosses = y >= without.y && y < without.y + without.height;
-        fill(tile.x, crosses ? without.x : tile.x + tile.width);
-        if (crosses) fill(without.x + without.width, tile.x + tile.width);
+        find(tile.x, crosses ? without.x : tile.x + tile.width);
+        if (crosses) find(without.x + without.width, tile.x + tile.width);
     });
+    std::vector<shared::SunPixel> pixels;
+    for (const auto& row : rows) pixels.insert(pixels.end(), row.begin(), row.end());
+    return pixels;
+}
+
+LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& sun, const scene::Sky& sky, int rays,
+                      const Tile& without) {
+    LayeredImage image = emptyFrame(tile, sky.radiance);
+    const std::array<std::vector<float>*, 3> colours{&image.layer("R"), &image.layer("G"), &image.layer("B")};
+    for (const shared::SunPixel& seen : sunPixels(camera, tile, sun, sky, rays, without)) {
+        const auto i = static_cast<std::size_t>(seen.pixel.y - tile.y) * static_cast<std::size_t>(tile.width) +
+                       static_cast<std::size_t>(seen.pixel.x - tile.x);
+        for (int c = 0; c < 3; ++c) (*colours[static_cast<std::size_t>(c)])[i] = seen.radiance[c];
+    }
     return image;
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "base/image.h"
 #include "scene/scene.h"
-#include "shared/draw.h"
+#include "shared/frame.h"
 #include "view/camera.h"
 #include "view/view.h"
 
@@ -12,6 +13,11 @@ namespace lumulus::frame {
 
 /// All layers that a picture has, of that radiance, nothing in the way.
 LayeredImage emptyFrame(const Tile& tile, const glm::dvec3& radiance = glm::dvec3(0.0));
+
+/// The pixels of the part `tile` that see the sun's disc, but for those in the part `without`, with the radiance that
+/// they have. `rays` along each side of a pixel meet the disc or not.
+std::vector<shared::SunPixel> sunPixels(const Camera& camera, const Tile& tile, const scene::Sun& sun,
+                                        const scene::Sky& sky, int rays, const Tile& without);
 
 /// The part `tile` of the picture without a cloud: sky, the sun's disc, and the layers that every picture has. `rays`
 /// along each side of a pixel meet the disc or not; it may be left out in a part, which is drawn later.

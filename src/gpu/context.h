@@ -20,6 +20,11 @@ enum class Sampler {
     linearClamp,  ///< outside the image: the texel at the edge
 };
 
+/// Bytes of pictures, volumes and lists that went from the host to the device and back.
+struct Transfers {
+    std::uint64_t uploaded = 0, downloaded = 0;
+};
+
 /// A command buffer with its pool and the fence of its submission.
 struct CommandBuffer {
     Owned<VkCommandPool> pool;
@@ -42,6 +47,8 @@ class Context {
     std::vector<std::string> validationMessages() const { return instance_.messages(); }
     /// Bytes of device memory that buffers and images hold now.
     std::uint64_t allocatedBytes() const { return allocatedBytes_; }
+    /// Since the context was made: the copies of transfer.h, and the pictures that are read from host memory.
+    const Transfers& transfers() const { return transfers_; }
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
     std::uint64_t maxAllocationBytes() const { return maxAllocationBytes_; }
     std::uint32_t timestampBits() const { return timestampBits_; }
@@ -85,6 +92,9 @@ class Context {
     /// The bookkeeping behind allocatedBytes().
     void addAllocated(std::uint64_t bytes) { allocatedBytes_ += bytes; }
     void subtractAllocated(std::uint64_t bytes) { allocatedBytes_ -= bytes; }
+    /// The bookkeeping behind transfers().
+    void addUploaded(std::uint64_t bytes) { transfers_.uploaded += bytes; }
+    void addDownloaded(std::uint64_t bytes) { transfers_.downloaded += bytes; }
 
   private:
     struct DestroyDevice {
@@ -96,6 +106,7 @@ class Context {
     void openDevice();
 
     std::atomic<std::uint64_t> allocatedBytes_ = 0;
+    Transfers transfers_;
     Instance instance_;
     DeviceInfo info_;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;

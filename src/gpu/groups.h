@@ -14,4 +14,9 @@ inline glm::uvec3 linearGroups(std::uint64_t count, std::uint32_t itemsPerGroup)
     return {static_cast<std::uint32_t>(std::min(groups, row)), static_cast<std::uint32_t>((groups + row - 1) / row), 1};
 }
 
+/// Workgroups of 16 × 4 invocations, one invocation for each pixel.
+inline glm::uvec3 pixelGroups(const glm::ivec2& size) {
+    return {(static_cast<std::uint32_t>(size.x) + 15) / 16, (static_cast<std::uint32_t>(size.y) + 3) / 4, 1};
+}
+
 }  // namespace lumulus::gpu

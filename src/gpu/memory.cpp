@@ -77,6 +77,10 @@ void copyPieces(Context& context, std::span<Byte> bytes, std::uint64_t most, con
         context.immediately([&](VkCommandBuffer commands) { copy(commands, staging.handle(), offset, piece.size()); });
         if constexpr (!std::is_const_v<Byte>) std::memcpy(piece.data(), mapped, piece.size());
     }
+    if constexpr (std::is_const_v<Byte>)
+        context.addUploaded(bytes.size());
+    else
+        context.addDownloaded(bytes.size());
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include "base/stopwatch.h"
 #include "draw/shown.h"
-#include "fog/screen/frame.h"
 #include "frame/background.h"
 #include "frame/view_params.h"
 #include "render/renderer_state.h"
@@ -135,20 +134,27 @@ void Renderer::State::recordBlocks(const draw::FrameInputs& inputs, const shared
     recordPixels(into(inputs.pixels, interpolation.lastList()), interpolation.squares(pixels));
 }
 
-void Renderer::State::drawBand(LayeredImage& image, const draw::FrameInputs& inputs,
+void Renderer::State::drawBand(LayeredImage* image, const draw::FrameInputs& inputs,
                                const shared::SamplingGrid& sampling, const draw::Band& band) {
     const Tile pixels{shown.x, shown.y + band.first, shown.width, band.rows};
+    const Tile place{pixels.x - tile.x, pixels.y - tile.y, pixels.width, pixels.height};
     if (sampling.spacing > 1) interpolations.at(spacing).clearLists();
     commands.begin();
     if (sampling.spacing > 1)
         recordBlocks(inputs, sampling, band, pixels);
     else
         recordPixels(inputs, {shared::DRAW_PIXELS, {pixels.x, pixels.y}, {pixels.width, pixels.height}});
+    if (image == nullptr) {
+        commands.barrier("pixels");
+        frame->recordBand(commands, inputs.pixels, place);
+    }
     commands.submit();
     commands.wait();
     addTimes(commands.times());
-    frame::copyPixels(inputs.pixels.mapped<const shared::Pixel>(), image,
-                      {shown.x - tile.x, shown.y - tile.y + band.first, shown.width, band.rows});
+    if (image == nullptr) return;
+    frame::copyPixels(inputs.pixels.mapped<const shared::Pixel>(), *image, place);
+    context.addDownloaded(static_cast<std::uint64_t>(place.width) * static_cast<std::uint64_t>(place.height) *
+                          sizeof(shared::Pixel));
 }
 
 /// The light that this view sees, by all photons or by a part of them.
@@ -164,12 +170,13 @@ void Renderer::State::drawLight(photon::Part part) {
     if (billboards) billboards->prepare(camera);
 }
 
-void Renderer::State::drawBands(LayeredImage& image, const std::vector<draw::Band>& bands, const Report& told) {
+/// Draws into the image, or into the frame on the GPU where there is no image.
+void Renderer::State::drawBands(LayeredImage* image, const std::vector<draw::Band>& bands, const Report& told) {
     gpu::Buffer params(context, "draw params", sizeof(shared::DrawParams), gpu::Memory::host);
-    const gpu::Buffer pixels(context, "pixels",
-                             static_cast<std::uint64_t>(draw::bandRows(shown)) *
-                                 static_cast<std::uint64_t>(shown.width) * sizeof(shared::Pixel),
-                             gpu::Memory::host);
+    const auto most = static_cast<std::uint64_t>(draw::bandRows(shown)) * static_cast<std::uint64_t>(shown.width);
+    const gpu::Buffer pixels = image == nullptr
+                                   ? draw::pixelBuffer(context, "pixels", most)
+                                   : gpu::Buffer(context, "pixels", most * sizeof(shared::Pixel), gpu::Memory::host);
     // Stand for what the scene does not have: the shaders never read them, but every binding must be there.
     const gpu::Image none(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT);
     const gpu::Buffer noSquares = draw::noSquares(context);
@@ -191,12 +198,32 @@ void Renderer::State::drawBands(LayeredImage& image, const std::vector<draw::Ban
     statistics.gpuBytes = context.allocatedBytes();
 }
 
-void Renderer::State::applyFog(LayeredImage& image) {
+/// The frame as it is without a cloud, but for the part that the cloud may be seen in.
+void Renderer::State::drawBackground() {
+    const glm::ivec2 size(tile.width, tile.height);
+    if (!frame || frame->size() != size) {
+        frame.reset();
+        frame.emplace(context, size);
+    }
+    commands.begin();
+    frame->recordBackground(commands, glm::vec3(scene.sky.radiance),
+                            frame::sunPixels(camera, tile, scene.sun, scene.sky, raysAcross, shown), shown);
+    commands.submit();
+    commands.wait();
+    addTimes(commands.times());
+}
+
+/// A part of the frame as seen through the fog.
+LayeredImage Renderer::State::throughFog(const Tile& wanted) {
     report("fog", 0, 1);
-    fog::applyToFrame(*fog, image, camera, scene.sky.radiance);
+    fog->apply(*frame, camera, glm::vec3(scene.sky.radiance), wanted);
     addTimes(fog->takeTimes());
+    std::vector<gpu::PassTime> times;
+    LayeredImage image = frame->download(commands, wanted, times);
+    addTimes(times);
     statistics.gpuBytes = context.allocatedBytes();
     report("fog", 1, 1);
+    return image;
 }
 
 LayeredImage Renderer::draw() {
@@ -248,20 +275,21 @@ LayeredImage Renderer::draw(const View& view) {
     const Tile wanted = s.tile;
     if (s.fog) s.tile = {0, 0, view.image.width, view.image.height};  // its filter sees beyond the tile
     s.shown = s.shownPart();
-    LayeredImage image = frame::skyImage(s.camera, s.tile, s.scene.sun, s.scene.sky, s.raysAcross, s.shown);
     s.statistics.passes.clear();
+    LayeredImage image;
+    if (s.fog)
+        s.drawBackground();
+    else
+        image = frame::skyImage(s.camera, s.tile, s.scene.sun, s.scene.sky, s.raysAcross, s.shown);
     if (s.photons) {
         s.photons->settle();
         s.addTimes(s.photons->times());
     }
     if (s.shown.height > 0) {
         s.drawLight(photon::Part::all);
-        s.drawBands(image, draw::allBands(s.shown), s.report);
+        s.drawBands(s.fog ? nullptr : &image, draw::allBands(s.shown), s.report);
     }
-    if (s.fog) {
-        s.applyFog(image);
-        if (!(wanted == s.tile)) image = cropped(image, wanted);
-    }
+    if (s.fog) image = s.throughFog(wanted);
     s.statistics.drawSeconds += watch.seconds();
     return image;
 }
@@ -304,7 +332,7 @@ Preview Renderer::preview() {
         s.drawLight(part);
         const double whole = watch.seconds();
         s.statistics.passes.clear();
-        s.drawBands(image, bands, noReport);
+        s.drawBands(&image, bands, noReport);
         // the first of the two also pays for what is made once
         preview.forecastSeconds = whole + s.passSeconds() * s.camera.height / static_cast<double>(preview.rows.size()) *
                                               draw::drawnShare(s.samplingSpacing());

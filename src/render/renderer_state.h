@@ -12,6 +12,7 @@
 #include "draw/march.h"
 #include "draw/sparse_sampling.h"
 #include "fog/screen/fog.h"
+#include "frame/frame.h"
 #include "gpu/commands.h"
 #include "light/light_field.h"
 #include "light/photon/photon_map.h"
@@ -63,7 +64,8 @@ struct Renderer::State {
     std::optional<draw::March> march;
     std::map<int, draw::Interpolation> interpolations;  ///< by spacing: views of several clients take turns
     std::optional<fog::Fog> fog;
-    scene::Sun sunlight = scene.sun;  ///< that reaches the cloud through the fog
+    std::optional<frame::Frame> frame;  ///< where passes follow the drawing: fog
+    scene::Sun sunlight = scene.sun;    ///< that reaches the cloud through the fog
 
     std::optional<glm::vec3> lightEye;  // that the light field was made for, by all photons as they are now
     bool lightCounted = false;          // what of it no view changes is up to date
@@ -92,8 +94,8 @@ struct Renderer::State {
     void recordLight(photon::Part part);
     void drawLight(photon::Part part);
     Tile shownPart() const;
-    void drawBands(LayeredImage& image, const std::vector<draw::Band>& bands, const Report& told);
-    void drawBand(LayeredImage& image, const draw::FrameInputs& inputs, const shared::SamplingGrid& sampling,
+    void drawBands(LayeredImage* image, const std::vector<draw::Band>& bands, const Report& told);
+    void drawBand(LayeredImage* image, const draw::FrameInputs& inputs, const shared::SamplingGrid& sampling,
                   const draw::Band& band);
     void recordPixels(const draw::FrameInputs& inputs, const shared::DrawPush& push);
     void recordBlocks(const draw::FrameInputs& inputs, const shared::SamplingGrid& sampling, const draw::Band& band,
@@ -103,7 +105,8 @@ struct Renderer::State {
     int samplingSpacing() const;
     void addTimes(const std::vector<gpu::PassTime>& times);
     double passSeconds() const;
-    void applyFog(LayeredImage& image);
+    void drawBackground();
+    LayeredImage throughFog(const Tile& wanted);
     glm::dvec3 toVoxel(const glm::dvec3& world) const;
     glm::vec3 eyeVoxel() const;
 };

@@ -1,6 +1,5 @@
 #include "view/view.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -42,21 +41,6 @@ Tile drawnTile(const View& view) {
                         tile.x <= view.image.width - tile.width && tile.y <= view.image.height - tile.height;
     if (!within) throw InputError("the tile is not within the picture", "tile", "give [x, y, width, height] in pixels");
     return tile;
-}
-
-LayeredImage cropped(const LayeredImage& image, const Tile& tile) {
-    LayeredImage part;
-    part.width = tile.width;
-    part.height = tile.height;
-    part.attributes = image.attributes;
-    for (const auto& [name, values] : image.layers) {
-        std::vector<float>& layer = part.layer(name);
-        for (int y = 0; y < tile.height; ++y) {
-            const auto from = values.begin() + static_cast<std::ptrdiff_t>(tile.y + y) * image.width + tile.x;
-            std::copy_n(from, tile.width, layer.begin() + static_cast<std::ptrdiff_t>(y) * tile.width);
-        }
-    }
-    return part;
 }
 
 }  // namespace lumulus

@@ -4,7 +4,6 @@
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 
-#include "base/image.h"
 #include "scene/scene.h"
 #include "view/camera.h"
 
@@ -43,8 +42,5 @@ Camera makeCamera(const View& view, const Bounds& cloud);
 
 /// The part that is drawn: the tile, or everything. Errors: InputError for a tile that is not within the picture.
 Tile drawnTile(const View& view);
-
-/// A part of a picture, all layers.
-LayeredImage cropped(const LayeredImage& image, const Tile& tile);
 
 }  // namespace lumulus

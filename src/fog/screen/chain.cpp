@@ -57,7 +57,7 @@ Chain::Chain(gpu::Context& context, const glm::ivec2& size, const scene::Fog& fo
 }
 
 void Chain::recordDown(gpu::Commands& commands, const shared::LevelPush& levels) {
-    const glm::uvec3 groups = pixelGroups(levels.coarserSize);
+    const glm::uvec3 groups = gpu::pixelGroups(levels.coarserSize);
     if (!masked_) {
         commands.dispatch(*naiveDown_, {{"finer", scattered_, gpu::Sampler::linearClamp}, {"coarser", scattered_}},
                           levels, groups);
@@ -80,14 +80,14 @@ void Chain::record(gpu::Commands& commands, const LayerInputs& layer, double lar
     std::vector<gpu::Binding> bindings = layer.bindings();
     bindings.emplace_back("sharp", sharp_);
     bindings.emplace_back("scattered", scattered_);
-    commands.dispatch(prepare_, bindings, layer.push, pixelGroups(size));
+    commands.dispatch(prepare_, bindings, layer.push, gpu::pixelGroups(size));
     if (masked_) {
         commands.barrier("fog light");
         commands.dispatch(masked_->prepare,
                           {{"scattered", scattered_}, {"depth", masked_->depth}, {"separated", masked_->separated}},
                           {size, static_cast<float>(fog_.separation), static_cast<float>(fog_.separationLuminance),
                            static_cast<float>(fog_.separationSpread * size.y)},
-                          pixelGroups(size));
+                          gpu::pixelGroups(size));
     }
     commands.pass("fog down");
     for (int level = 1; level <= last; ++level) {
@@ -108,7 +108,7 @@ void Chain::record(gpu::Commands& commands, const LayerInputs& layer, double lar
                        {"result", result}},
                       {size, 1.0F / glm::vec2(pyramid_.image), last, static_cast<float>(step_.scale()),
                        fog_.depthLookups, static_cast<float>(fog_.separationLevel)},
-                      pixelGroups(size));
+                      gpu::pixelGroups(size));
 }
 
 }  // namespace lumulus::fog

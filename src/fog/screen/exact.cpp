@@ -40,7 +40,7 @@ void Exact::recordLight(gpu::Commands& commands, const LayerInputs& layer) {
     bindings.emplace_back("sharp", sharp_);
     bindings.emplace_back("scattered", scattered_);
     commands.pass("fog light");
-    commands.dispatch(prepare_, bindings, layer.push, pixelGroups(size_));
+    commands.dispatch(prepare_, bindings, layer.push, gpu::pixelGroups(size_));
 }
 
 int Exact::recordSources(gpu::Commands& commands, int firstRow, const gpu::Image& result) {
@@ -48,9 +48,9 @@ int Exact::recordSources(gpu::Commands& commands, int firstRow, const gpu::Image
     const shared::ExactPush push{size_, firstRow, rows};
     commands.pass("fog exact");
     commands.dispatch(shareAcross_, {{"scattered", scattered_, gpu::Sampler::nearest}, {"shares", across_}}, push,
-                      pixelGroups({size_.x, rows * size_.x}));
+                      gpu::pixelGroups({size_.x, rows * size_.x}));
     commands.dispatch(shareDown_, {{"scattered", scattered_, gpu::Sampler::nearest}, {"shares", down_}}, push,
-                      pixelGroups({size_.y, rows * size_.x}));
+                      gpu::pixelGroups({size_.y, rows * size_.x}));
     commands.barrier("fog shares");
     commands.dispatch(spread_,
                       {{"scattered", scattered_, gpu::Sampler::nearest},
@@ -58,7 +58,7 @@ int Exact::recordSources(gpu::Commands& commands, int firstRow, const gpu::Image
                        {"across", across_, gpu::Sampler::nearest},
                        {"down", down_, gpu::Sampler::nearest},
                        {"result", result}},
-                      push, pixelGroups(size_));
+                      push, gpu::pixelGroups(size_));
     return rows;
 }
 

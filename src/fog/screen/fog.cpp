@@ -7,22 +7,22 @@
 #include "base/interrupt.h"
 #include "fog/screen/chain.h"
 #include "fog/screen/exact.h"
+#include "fog/screen/frame_layers.h"
 #include "fog/screen/scatter.h"
 #include "fog/screen/spread.h"
+#include "frame/pass_times.h"
 #include "frame/view_params.h"
 #include "gpu/transfer.h"
 #include "medium/fog_media.h"
+#include "shared/draw.h"
 
 namespace lumulus::fog {
 
 namespace {
 
-/// What pictures of one size need.
-struct Surface {
-    Surface(gpu::Context& context, const scene::Fog& scene, const glm::ivec2& size)
-        : radiance(context, "fog radiance", size, lightFormat),
-          distances(context, "fog distances", size, VK_FORMAT_R32_SFLOAT),
-          result(context, "fog result", size, lightFormat) {
+/// The filter that the scene asks for.
+struct Filter {
+    Filter(gpu::Context& context, const scene::Fog& scene, const glm::ivec2& size) {
         if (scene.filter == scene::FogFilter::scatter)
             scatter.emplace(context, size, pyramidStep(scene.filterSize, scene.fetch));
         else if (scene.filter == scene::FogFilter::gather)
@@ -31,22 +31,35 @@ struct Surface {
             chain.emplace(context, size, scene);
     }
 
-    gpu::Image radiance, distances, result;
-    // the one that the scene asks for
     std::optional<Scatter> scatter;
     std::optional<Chain> chain;
     std::optional<Exact> exact;
 };
 
-void addTimes(std::vector<gpu::PassTime>& sums, const std::vector<gpu::PassTime>& times) {
-    for (const gpu::PassTime& time : times) {
-        const auto known = std::ranges::find(sums, time.name, &gpu::PassTime::name);
-        if (known == sums.end())
-            sums.push_back(time);
-        else
-            known->milliseconds += time.milliseconds;
-    }
-}
+/// A layer that comes from the host. What is seen of it takes the place of its radiance.
+struct Uploaded {
+    Uploaded(gpu::Context& context, const glm::ivec2& size)
+        : radiance(context, "fog radiance", size, lightFormat),
+          distances(context, "fog distances", size, VK_FORMAT_R32_SFLOAT) {}
+
+    gpu::Image radiance, distances;
+};
+
+/// What pictures of one size need, made when it is first needed.
+struct Surface {
+    explicit Surface(const glm::ivec2& pixels) : size(pixels) {}
+
+    glm::ivec2 size;
+    std::optional<Filter> filter;
+    std::optional<Uploaded> uploaded;
+    std::optional<FrameLayers> layers;
+};
+
+/// Where a picture is seen from, and the media around it.
+struct Eye {
+    const Camera& camera;
+    gpu::Buffer media;
+};
 
 }  // namespace
 
@@ -61,27 +74,52 @@ struct Fog::State {
     std::optional<Surface> surface;
     std::vector<gpu::PassTime> times;
 
-    void run(const LayerInputs& inputs, double largest);
+    Surface& surfaceOf(const glm::ivec2& size) {
+        if (!surface || surface->size != size) {
+            surface.reset();
+            surface.emplace(size);
+        }
+        return *surface;
+    }
+    Eye eyeOf(const Camera& camera) {
+        return {camera, gpu::filledBuffer(context, "fog media", mediaAround(scene, camera.position))};
+    }
+    /// What is seen of a layer, in `result`, which may be its radiance. `farthest` is the largest of its distances.
+    void filter(const Eye& eye, const gpu::Image& radiance, const gpu::Image& distances, double farthest,
+                const gpu::Image& result);
+    void run(const LayerInputs& inputs, double largest, const gpu::Image& result);
     void submit();
 };
 
 void Fog::State::submit() {
     commands.submit();
     commands.wait();
-    addTimes(times, commands.times());
+    frame::addTimes(times, commands.times());
 }
 
-void Fog::State::run(const LayerInputs& inputs, double largest) {
+void Fog::State::filter(const Eye& eye, const gpu::Image& radiance, const gpu::Image& distances, double farthest,
+                        const gpu::Image& result) {
+    const LayerInputs inputs{radiance,
+                             distances,
+                             eye.media,
+                             {frame::viewParams(eye.camera), static_cast<float>(pixelsPerRadian(eye.camera)),
+                              static_cast<float>(scene.skyDistance), static_cast<int>(scene.media.size()), 0}};
+    if (!surface->filter) surface->filter.emplace(context, scene, surface->size);
+    run(inputs, largestSpread(scene, eye.camera, farthest), result);
+}
+
+void Fog::State::run(const LayerInputs& inputs, double largest, const gpu::Image& result) {
+    Filter& made = *surface->filter;
     commands.begin();
-    if (surface->scatter) surface->scatter->record(commands, inputs, largest, surface->result);
-    if (surface->chain) surface->chain->record(commands, inputs, largest, surface->result);
-    if (surface->exact) surface->exact->recordLight(commands, inputs);
+    if (made.scatter) made.scatter->record(commands, inputs, largest, result);
+    if (made.chain) made.chain->record(commands, inputs, largest, result);
+    if (made.exact) made.exact->recordLight(commands, inputs);
     submit();
-    if (!surface->exact) return;
+    if (!made.exact) return;
     for (int row = 0; row < inputs.push.view.size.y;) {
         check();
         commands.begin();
-        row += surface->exact->recordSources(commands, row, surface->result);
+        row += made.exact->recordSources(commands, row, result);
         submit();
     }
 }
@@ -93,27 +131,36 @@ Fog::~Fog() = default;
 
 std::vector<glm::vec4> Fog::apply(const Layer& layer, const Camera& camera) {
     State& s = *state_;
-    const glm::ivec2 size(camera.width, camera.height);
-    if (!s.surface || glm::ivec2(s.surface->result.extent()) != size) {
-        s.surface.reset();
-        s.surface.emplace(s.context, s.scene, size);
-    }
-    Surface& surface = *s.surface;
-    gpu::upload(s.context, surface.radiance, layer.radiance);
-    gpu::upload(s.context, surface.distances, layer.distances);
-    const gpu::Buffer media = gpu::filledBuffer(s.context, "fog media", mediaAround(s.scene, camera.position));
-    const LayerInputs inputs{surface.radiance,
-                             surface.distances,
-                             media,
-                             {frame::viewParams(camera), static_cast<float>(pixelsPerRadian(camera)),
-                              static_cast<float>(s.scene.skyDistance), static_cast<int>(s.scene.media.size()), 0}};
+    Surface& surface = s.surfaceOf({camera.width, camera.height});
+    if (!surface.uploaded) surface.uploaded.emplace(s.context, surface.size);
+    const auto& [radiance, distances] = *surface.uploaded;
+    gpu::upload(s.context, surface.uploaded->radiance, layer.radiance);
+    gpu::upload(s.context, surface.uploaded->distances, layer.distances);
     const float farthest = *std::ranges::max_element(layer.distances);
-    s.run(inputs, largestSpread(s.scene, camera, static_cast<double>(farthest)));
-    return gpu::download<glm::vec4>(s.context, surface.result);
+    s.filter(s.eyeOf(camera), radiance, distances, static_cast<double>(farthest), radiance);
+    return gpu::download<glm::vec4>(s.context, radiance);
 }
 
-const scene::Fog& Fog::scene() const {
-    return state_->scene;
+void Fog::apply(const frame::Frame& frame, const Camera& camera, const glm::vec3& sky, const Tile& part) {
+    State& s = *state_;
+    Surface& surface = s.surfaceOf(frame.size());
+    if (!surface.layers) surface.layers.emplace(s.context, surface.size);
+    FrameLayers& layers = *surface.layers;
+    s.commands.begin();
+    layers.recordSplit(s.commands, frame, sky);
+    s.submit();
+    const FrameLayers::Present present = layers.present();
+    const Eye eye = s.eyeOf(camera);
+    const auto behindAll = static_cast<double>(shared::FAR_DEPTH);
+    if (present.clouded) {
+        s.filter(eye, frame.cloud(), frame.depth(), present.farthest, layers.seenCloud());
+        s.filter(eye, layers.shadow(), layers.far(), behindAll, layers.shadow());
+    }
+    if (present.lit) s.filter(eye, layers.bright(), layers.far(), behindAll, layers.bright());
+    const OpenSky open = openSky(s.scene, camera, sky, part);
+    s.commands.begin();
+    layers.recordJoin(s.commands, frame, present, open, part);
+    s.submit();
 }
 
 std::vector<gpu::PassTime> Fog::takeTimes() {

@@ -1,13 +1,17 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "base/interrupt.h"
 #include "gpu/commands.h"
 #include "scene/fog.h"
 #include "view/camera.h"
+#include "view/view.h"
+
+namespace lumulus::frame {
+class Frame;
+}
 
 namespace lumulus::fog {
 
@@ -22,14 +26,20 @@ struct Layer {
 /// Errors: Error where memory runs out.
 class Fog {
   public:
-    /// `scene` must have media. `check` is asked between the steps of apply().
+    /// `scene` must have media. `check` is asked between the steps of the filter.
     Fog(gpu::Context& context, const scene::Fog& scene, Check check = stopIfInterrupted);
     ~Fog();
 
-    /// The layer as seen by `camera`, whose picture it fills: RGB of each pixel.
+    /// The layer as seen by `camera`, whose picture it fills: RGB of each pixel. Uploads the layer once and downloads
+    /// the result once.
     std::vector<glm::vec4> apply(const Layer& layer, const Camera& camera);
 
-    const scene::Fog& scene() const;
+    /// Shows a frame of `camera` through the fog, in place on the GPU: light of the cloud and radiance change in the
+    /// part `part`. The cloud is a layer at its mean distance, with how much it covers. A sky of the same radiance
+    /// everywhere stays so in fog, but for what is absorbed; what differs from `sky` is filtered as a layer behind all
+    /// fog: light that the cloud takes out of the sky, and the sun's disc. Layers that are black are not filtered.
+    void apply(const frame::Frame& frame, const Camera& camera, const glm::vec3& sky, const Tile& part);
+
     /// Times of the passes of all apply() since the last call, added up by name.
     std::vector<gpu::PassTime> takeTimes();
 

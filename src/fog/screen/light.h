@@ -3,12 +3,14 @@
 #include <glm/glm.hpp>
 
 #include "gpu/commands.h"
+#include "gpu/groups.h"
 #include "gpu/transfer.h"
 #include "shared/fog.h"
 
 namespace lumulus::fog {
 
-/// What every filter reads: the light of a layer (alpha: how much of the pixel it covers), its distances and the media.
+/// What every filter reads: the light of a layer (alpha: how much of the pixel it covers), its distances (one texel
+/// where all are the same) and the media.
 struct LayerInputs {
     const gpu::Image& radiance;
     const gpu::Image& distances;
@@ -21,11 +23,6 @@ struct LayerInputs {
                 {"Media", media}};
     }
 };
-
-/// Workgroups of 16 × 4 invocations, one for each pixel.
-inline glm::uvec3 pixelGroups(const glm::ivec2& size) {
-    return {(static_cast<std::uint32_t>(size.x) + 15) / 16, (static_cast<std::uint32_t>(size.y) + 3) / 4, 1};
-}
 
 /// An image of zeros: what no pass writes, between the levels of a pyramid, must not hold what was there before.
 inline gpu::Image emptyImage(gpu::Context& context, const char* name, const glm::ivec2& extent, VkFormat format) {

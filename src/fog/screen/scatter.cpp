@@ -32,7 +32,7 @@ void Scatter::record(gpu::Commands& commands, const LayerInputs& layer, double l
         bindings.emplace_back(name, *image);
     shared::FogPush push = layer.push;
     push.last = last;
-    commands.dispatch(prepare_, bindings, push, pixelGroups(push.view.size));
+    commands.dispatch(prepare_, bindings, push, gpu::pixelGroups(push.view.size));
     commands.pass("fog down");
     for (int level = 1; level <= last; ++level) {
         commands.barrier("fog level");
@@ -42,7 +42,7 @@ void Scatter::record(gpu::Commands& commands, const LayerInputs& layer, double l
                            {"kept", kept_},
                            {"halfway", halfway_},
                            {"passed", passed_}},
-                          levels, pixelGroups(levels.coarserSize));
+                          levels, gpu::pixelGroups(levels.coarserSize));
     }
     commands.pass("fog up");
     for (int level = last + 1; level >= 1; --level) {
@@ -54,7 +54,7 @@ void Scatter::record(gpu::Commands& commands, const LayerInputs& layer, double l
                            {"coarser", passed_, gpu::Sampler::linearClamp},
                            {"gathered", passed_},
                            {"result", result}},
-                          levels, pixelGroups(levels.finerSize));
+                          levels, gpu::pixelGroups(levels.finerSize));
     }
 }
 

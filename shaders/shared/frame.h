@@ -1,0 +1,42 @@
+// Interface structs of the frame: layers of a picture on the GPU.
+#ifndef LUMULUS_SHARED_FRAME_H
+#define LUMULUS_SHARED_FRAME_H
+
+#include "shared/draw.h"
+
+SHARED_BEGIN
+
+/// A pixel beside the cloud that sees the sun's disc.
+struct SunPixel {
+    ivec2 pixel;
+    vec3 radiance;  // with the sky
+};
+
+/// What is seen where no cloud is, in the whole picture but for a rectangle.
+struct BackgroundPush {
+    ivec2 size;
+    ivec2 withoutFirst;
+    ivec2 withoutSize;
+    vec3 radiance;
+};
+
+struct SunPixelsPush {
+    int count;
+};
+
+/// A rectangle of the picture, whose pixels lie in a buffer row by row.
+struct BandPush {
+    ivec2 first;
+    ivec2 size;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(SunPixel) == 20 && offsetof(SunPixel, radiance) == 8);
+static_assert(sizeof(BackgroundPush) == 36 && offsetof(BackgroundPush, radiance) == 24);
+static_assert(sizeof(SunPixelsPush) == 4);
+static_assert(sizeof(BandPush) == 16 && offsetof(BandPush, size) == 8);
+#endif
+
+SHARED_END
+
+#endif
