@@ -13,6 +13,7 @@ namespace {
 using test::Frame;
 using test::smallScene;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -34,6 +35,35 @@ TEST(RendererFog, WithoutMediaNoPassOfItExists) {
     scene::Scene scene = smallScene();
     scene.fog.filter = scene::FogFilter::masked;
     EXPECT_THAT(test::render(scene).passes(), Not(Contains(HasSubstr("fog"))));
+    EXPECT_THAT(test::render(scene).passes(), Not(Contains(HasSubstr("frame"))));
+}
+
+TEST(RendererFog, TheFrameStaysOnTheGpuUntilItIsSeenThroughTheFog) {
+    EXPECT_THAT(test::render(foggy(1e-4, 0.0)).passes(),
+                ElementsAre("frame background", "trace", "sort", "gather", "shadow volume", "reconstruct",
+                            "light counts", "light field", "march", "frame band", "fog split", "fog light", "fog down",
+                            "fog up", "fog join", "frame download"));
+}
+
+TEST(RendererFog, WithoutACloudNothingIsFiltered) {
+    scene::Scene scene = foggy(1e-4, 0.0);
+    scene.clouds.clear();
+    scene.sun.directionTo = {0.0, -1.0, 0.0};
+    EXPECT_THAT(test::render(scene).passes(),
+                ElementsAre("frame background", "fog split", "fog join", "frame download"));
+}
+
+TEST(RendererFog, ATileIsAsInTheWholePicture) {
+    scene::Scene scene = foggy(1e-3, 1e-4);
+    Renderer renderer(scene, {.device = "", .validation = true});
+    for (int i = 0; i < renderer.generationsWanted(); ++i) renderer.traceGeneration();
+    View view = renderer.sceneView();
+    const LayeredImage whole = renderer.draw(view);
+    view.tile = Tile{5, 7, 11, 13};
+    const LayeredImage part = renderer.draw(view);
+    for (const auto& [name, values] : part.layers)
+        for (std::size_t i = 0; i < values.size(); ++i)
+            ASSERT_EQ(values[i], whole.layers.at(name)[(i / 11 + 7) * 32 + i % 11 + 5]) << name;
 }
 
 TEST(RendererFog, EachFilterRunsCleanUnderValidation) {

@@ -10,6 +10,8 @@
 #include "shared/cloud.h"
 #include "shared/draw.h"
 #include "shared/fog.h"
+#include "shared/fog_layers.h"
+#include "shared/frame.h"
 #include "shared/photon.h"
 #include "support/struct_layout.h"
 
@@ -30,9 +32,14 @@ namespace spirv {
 #include "spirv/draw/interpolate.comp.h"
 #include "spirv/fog/chain_fetch.comp.h"
 #include "spirv/fog/exact.comp.h"
+#include "spirv/fog/join.comp.h"
 #include "spirv/fog/masked_prepare.comp.h"
 #include "spirv/fog/scatter_down.comp.h"
 #include "spirv/fog/scatter_prepare.comp.h"
+#include "spirv/fog/split.comp.h"
+#include "spirv/frame/background.comp.h"
+#include "spirv/frame/read_band.comp.h"
+#include "spirv/frame/sun_pixels.comp.h"
 #include "spirv/gpu/shaders/layout.comp.h"
 #include "spirv/light/light_cells.comp.h"
 #include "spirv/light/light_counts.comp.h"
@@ -141,6 +148,16 @@ TEST(SharedLayout, Fog) {
     EXPECT_PUSH(masked_prepare_comp, SeparationPush, size, strength, luminance, spread);
     EXPECT_PUSH(chain_fetch_comp, FetchPush, size, inverseImage, last, levelScale, depthLookups, separationLevel);
     EXPECT_PUSH(exact_comp, ExactPush, size, firstRow, rows);
+    EXPECT_LAYOUT(split_comp, LayerSummary, clouded, lit, farthest);
+    EXPECT_PUSH(split_comp, FogSplitPush, size, sky);
+    EXPECT_PUSH(join_comp, FogJoinPush, first, size, clouded, lit);
+}
+
+TEST(SharedLayout, Frame) {
+    EXPECT_LAYOUT(sun_pixels_comp, SunPixel, pixel, radiance);
+    EXPECT_PUSH(sun_pixels_comp, SunPixelsPush, count);
+    EXPECT_PUSH(background_comp, BackgroundPush, size, withoutFirst, withoutSize, radiance);
+    EXPECT_PUSH(read_band_comp, BandPush, first, size);
 }
 
 }  // namespace
