@@ -12,78 +12,31 @@ namespace {
     throw std::logic_error(fmt::format("{}: binding {} {}", program.name(), binding, what));
 }
 
-/// Names that the shader does not have, or that come more often than it declares.
+/// Names that the shader does not have, or that come twice.
 void rejectOthers(const ProgramBase& program, const std::vector<Binding>& bindings) {
     for (const Binding& binding : bindings) {
         const auto same = [&](const auto& other) { return other.name == binding.name; };
-        const auto info = std::ranges::find_if(program.bindings(), same);
-        if (info == program.bindings().end()) fail(program, binding.name, "is not in the shader");
-        if (std::ranges::count_if(bindings, same) > std::ptrdiff_t{info->count})
-            fail(program, binding.name, info->count == 1 ? "is given twice" : "is given too often");
+        if (std::ranges::none_of(program.bindings(), same)) fail(program, binding.name, "is not in the shader");
+        if (std::ranges::count_if(bindings, same) > 1) fail(program, binding.name, "is given twice");
     }
 }
 
-/// Whether a resource is what the shader declares.
-void requireFit(const ProgramBase& program, const Binding& given, const BindingInfo& info) {
-    const bool isBuffer = given.buffer != nullptr;
+/// The one that fits what the shader declares.
+const Binding& findBinding(const ProgramBase& program, const std::vector<Binding>& bindings, const BindingInfo& info) {
+    const auto found = std::ranges::find(bindings, info.name, &Binding::name);
+    if (found == bindings.end()) fail(program, info.name, "is missing");
+    const bool isBuffer = found->buffer != nullptr;
     if (isBuffer != info.isBuffer())
         fail(program, info.name, isBuffer ? "is an image in the shader" : "is a buffer in the shader");
-    if (isBuffer && info.kind == VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER && given.buffer->texels() == VK_NULL_HANDLE)
+    if (isBuffer && info.kind == VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER && found->buffer->texels() == VK_NULL_HANDLE)
         fail(program, info.name, "needs a buffer of texels");
-    if (isBuffer) return;
+    if (isBuffer) return *found;
     const bool sampled = info.kind == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    if (given.image->dimensions() != info.dimensions || sampled != (given.sampler != Sampler::none))
+    if (found->image->dimensions() != info.dimensions || sampled != (found->sampler != Sampler::none))
         fail(program, info.name,
              fmt::format("needs a {}D image {} sampler", info.dimensions, sampled ? "with a" : "without a"));
+    return *found;
 }
-
-/// The ones that the shader declares under one name, in order: an array needs all its resources.
-std::vector<const Binding*> findBindings(const ProgramBase& program, const std::vector<Binding>& bindings,
-                                         const BindingInfo& info) {
-    std::vector<const Binding*> found;
-    for (const Binding& binding : bindings) {
-        if (binding.name != info.name) continue;
-        requireFit(program, binding, info);
-        found.push_back(&binding);
-    }
-    if (found.size() != info.count)
-        fail(program, info.name, found.empty() ? "is missing" : "has fewer resources than the shader's array");
-    return found;
-}
-
-/// What a dispatch binds, as Vulkan takes it. The vectors never grow after construction: `writes` points into them.
-struct Descriptors {
-    explicit Descriptors(const ProgramBase& program) {
-        std::size_t count = 0;
-        for (const BindingInfo& info : program.bindings()) count += info.count;
-        buffers.reserve(count);
-        images.reserve(count);
-        texels.reserve(count);
-    }
-
-    void add(Context& context, const BindingInfo& info, const std::vector<const Binding*>& resources) {
-        const std::size_t first = buffers.size();
-        for (const Binding* given : resources) {
-            const auto& [name, buffer, image, sampler] = *given;
-            buffers.push_back(buffer != nullptr ? VkDescriptorBufferInfo{buffer->handle(), 0, VK_WHOLE_SIZE}
-                                                : VkDescriptorBufferInfo{});
-            texels.push_back(buffer != nullptr ? buffer->texels() : VK_NULL_HANDLE);
-            images.push_back(image != nullptr ? VkDescriptorImageInfo{context.sampler(sampler), image->view(),
-                                                                      VK_IMAGE_LAYOUT_GENERAL}
-                                              : VkDescriptorImageInfo{});
-            const Resource& resource = buffer != nullptr ? static_cast<const Resource&>(*buffer) : *image;
-            accesses.push_back({resource.id(), resource.name(), info.reads, info.writes});
-        }
-        writes.push_back({VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, VK_NULL_HANDLE, info.binding, 0, info.count,
-                          info.kind, &images[first], &buffers[first], &texels[first]});
-    }
-
-    std::vector<VkDescriptorBufferInfo> buffers;
-    std::vector<VkDescriptorImageInfo> images;
-    std::vector<VkBufferView> texels;
-    std::vector<VkWriteDescriptorSet> writes;
-    std::vector<Access> accesses;
-};
 
 }  // namespace
 
@@ -154,18 +107,34 @@ void Commands::record(const ProgramBase& program, const std::vector<Binding>& bi
     if (arguments != nullptr && arguments->bytes() < offset + sizeof(VkDispatchIndirectCommand))
         throw std::logic_error(fmt::format("{}: the arguments at {} do not lie in {} of {} bytes", program.name(),
                                            offset, arguments->name(), arguments->bytes()));
-    Descriptors descriptors(program);
-    for (const BindingInfo& info : program.bindings())
-        descriptors.add(*context_, info, findBindings(program, bindings, info));
-    if (arguments != nullptr) descriptors.accesses.push_back({arguments->id(), arguments->name(), true, false});
-    add(arguments != nullptr ? StepKind::indirect : StepKind::dispatch, program.name(), descriptors.accesses);
+    std::vector<VkDescriptorBufferInfo> buffers(program.bindings().size());
+    std::vector<VkDescriptorImageInfo> images(program.bindings().size());
+    std::vector<VkBufferView> texels(program.bindings().size());
+    std::vector<VkWriteDescriptorSet> writes;
+    std::vector<Access> accesses;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const BindingInfo& info = program.bindings()[i];
+        const auto& [name, buffer, image, sampler] = findBinding(program, bindings, info);
+        if (buffer != nullptr) {
+            buffers[i] = {buffer->handle(), 0, VK_WHOLE_SIZE};
+            texels[i] = buffer->texels();
+        } else {
+            images[i] = {context_->sampler(sampler), image->view(), VK_IMAGE_LAYOUT_GENERAL};
+        }
+        writes.push_back({VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, VK_NULL_HANDLE, info.binding, 0, 1,
+                          info.kind, &images[i], &buffers[i], &texels[i]});
+        const Resource& resource = buffer != nullptr ? static_cast<const Resource&>(*buffer) : *image;
+        accesses.push_back({resource.id(), resource.name(), info.reads, info.writes});
+    }
+    if (arguments != nullptr) accesses.push_back({arguments->id(), arguments->name(), true, false});
+    add(arguments != nullptr ? StepKind::indirect : StepKind::dispatch, program.name(), accesses);
 
     const VolkDeviceTable& api = context_->api();
     VkCommandBuffer commands = commands_.handle;
     api.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.pipeline());
-    if (!descriptors.writes.empty())
+    if (!writes.empty())
         api.vkCmdPushDescriptorSetKHR(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program.layout(), 0,
-                                      static_cast<std::uint32_t>(descriptors.writes.size()), descriptors.writes.data());
+                                      static_cast<std::uint32_t>(writes.size()), writes.data());
     if (program.pushBytes() > 0)
         api.vkCmdPushConstants(commands, program.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, program.pushBytes(), push);
     if (arguments != nullptr)

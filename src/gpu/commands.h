@@ -51,8 +51,7 @@ class Commands {
     void begin();
     /// Starts a named pass: a label for debuggers and two timestamps. Ends the one before.
     void pass(const std::string& name);
-    /// Runs `groups` workgroups. `bindings` must name all that the shader declares and nothing else;
-    /// the resources of an array come under one name, in order.
+    /// Runs `groups` workgroups. `bindings` must name all that the shader declares and nothing else.
     template <class Push>
     void dispatch(const Program<Push>& program, const std::vector<Binding>& bindings,
                   const std::type_identity_t<Push>& push, glm::uvec3 groups) {

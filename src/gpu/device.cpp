@@ -69,10 +69,9 @@ struct Features {
     Features(const Features&) = delete;  // the structs point at each other
 
     /// The features that Lumulus needs, by name.
-    std::array<std::pair<const char*, VkBool32*>, 6> needed() {
+    std::array<std::pair<const char*, VkBool32*>, 5> needed() {
         return {{{"shaderInt64", &core.features.shaderInt64},
                  {"shaderStorageImageExtendedFormats", &core.features.shaderStorageImageExtendedFormats},
-                 {"shaderSampledImageArrayDynamicIndexing", &core.features.shaderSampledImageArrayDynamicIndexing},
                  {"scalarBlockLayout", &v12.scalarBlockLayout},
                  {"shaderBufferInt64Atomics", &v12.shaderBufferInt64Atomics},
                  {"maintenance4", &v13.maintenance4}}};  // for local_size_x_id as glslang writes it

@@ -21,9 +21,6 @@ ProgramBase::ProgramBase(Context& context, std::string name, std::span<const std
     for (const SpecConstant& constant : constants)
         if (std::ranges::count(reflection.constantIds, constant.id) == 0)
             throw std::logic_error(fmt::format("{}: the shader has no constant_id {}", name_, constant.id));
-    for (BindingInfo& binding : bindings_)
-        for (const SpecConstant& constant : constants)
-            if (binding.countConstant == constant.id) binding.count = constant.value;
     createLayout(context);
     createPipeline(context, spirv, constants);
 }
@@ -32,7 +29,7 @@ void ProgramBase::createLayout(Context& context) {
     const VolkDeviceTable& api = context.api();
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const BindingInfo& info : bindings_)
-        bindings.push_back({info.binding, info.kind, info.count, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+        bindings.push_back({info.binding, info.kind, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     const VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, nullptr,
                                                   VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
                                                   static_cast<std::uint32_t>(bindings.size()), bindings.data()};

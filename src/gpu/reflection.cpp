@@ -13,19 +13,6 @@ void require(bool holds, const std::string& what) {
     if (!holds) throw std::logic_error("SPIR-V reflection: " + what);
 }
 
-/// Of an array of resources, whose size may be a specialisation constant.
-void readCount(const Compiler& compiler, const spirv_cross::SPIRType& type, BindingInfo& info) {
-    if (type.array.empty()) return;
-    require(type.array.size() == 1 && type.array[0] != 0, info.name + " is an array of arrays or has no size");
-    if (type.array_size_literal[0]) {
-        info.count = type.array[0];
-        return;
-    }
-    const spirv_cross::SPIRConstant& size = compiler.get_constant(spirv_cross::ConstantID(type.array[0]));
-    info.count = size.scalar();
-    info.countConstant = compiler.get_decoration(size.self, spv::DecorationSpecId);
-}
-
 /// `flags` are the decorations: of a block, the ones that all its members have.
 BindingInfo readBinding(const Compiler& compiler, const spirv_cross::Resource& resource, VkDescriptorType kind,
                         const spirv_cross::Bitset& flags) {
@@ -37,7 +24,7 @@ BindingInfo readBinding(const Compiler& compiler, const spirv_cross::Resource& r
     require(compiler.get_decoration(resource.id, spv::DecorationDescriptorSet) == 0,
             info.name + " is not in descriptor set 0");
     const spirv_cross::SPIRType& type = compiler.get_type(resource.type_id);
-    readCount(compiler, type, info);
+    require(type.array.empty(), info.name + " is an array of resources");
     if (info.isBuffer()) return info;
     require(type.image.dim == spv::Dim2D || type.image.dim == spv::Dim3D,
             info.name + " is neither a 2D nor a 3D image");

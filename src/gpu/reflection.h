@@ -2,7 +2,6 @@
 
 #include <volk.h>
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,8 +16,6 @@ struct BindingInfo {
     int dimensions = 0;                                         ///< of an image: 2 or 3
     bool reads = true;                                          ///< false for `writeonly`
     bool writes = false;                                        ///< false for `readonly` and for sampled images
-    std::uint32_t count = 1;                                    ///< of an array: resources in it
-    std::optional<std::uint32_t> countConstant;  ///< specialisation constant that gives `count` where it is given
 
     /// Of bytes, or of texels (imageBuffer); else a storage image or a sampled one.
     bool isBuffer() const {
@@ -34,8 +31,8 @@ struct Reflection {
 };
 
 /// Reads the SPIR-V of a compute shader.
-/// Throws std::logic_error for what Lumulus does not use: other sets than 0, arrays of arrays, arrays without a
-/// size, uniform blocks, samplers apart from their images.
+/// Throws std::logic_error for what Lumulus does not use: other sets than 0, arrays of resources, uniform blocks,
+/// samplers apart from their images.
 Reflection reflect(std::span<const std::uint32_t> spirv);
 
 }  // namespace lumulus::gpu

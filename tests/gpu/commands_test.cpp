@@ -103,39 +103,6 @@ TEST_F(CommandsTest, VolumeIsSampledLinearlyWithAZeroBorder) {
     EXPECT_EQ(sample(Sampler::nearest)[5], 0.0F);
 }
 
-TEST_F(CommandsTest, VolumesOfAnArrayAreSampledByNumber) {
-    std::vector<Image> volumes;
-    for (int i = 0; i < 5; ++i) {
-        volumes.emplace_back(context, "volume", glm::ivec3(2 + i, 2, 2), VK_FORMAT_R32_SFLOAT);
-        upload(context, volumes.back(),
-               std::vector<float>(static_cast<std::size_t>(8 + 4 * i), static_cast<float>(10 + i)));
-    }
-    const Program<std::uint32_t> program(context, "sample", test::sample_array_comp, {SpecConstant::of(0, 5)});
-    const Buffer positions = filled<glm::vec4>(
-        "positions",
-        {{0.5F, 0.5F, 0.5F, 4.0F}, {0.5F, 0.5F, 0.5F, 0.0F}, {0.5F, 0.5F, 0.5F, 2.0F}, {0.5F, 0.5F, 0.5F, 9.0F}});
-    const Buffer values = filled<float>("values", std::vector<float>(4, -2.0F));
-    std::vector<Binding> bindings{{"Positions", positions}, {"Values", values}};
-    for (const Image& volume : volumes) bindings.emplace_back("volumes", volume, Sampler::linear);
-    commands.begin();
-    commands.dispatch(program, bindings, 4, {1, 1, 1});
-    run();
-    EXPECT_THAT(download<float>(context, values), ElementsAre(14, 10, 12, -1));
-    bindings.pop_back();
-    commands.begin();
-    EXPECT_THAT(
-        [&] {
-            commands.dispatch(program, bindings, 4, {1, 1, 1});
-        },
-        ThrowsMessage<std::logic_error>(HasSubstr("fewer resources")));
-    for (int i = 0; i < 2; ++i) bindings.emplace_back("volumes", volumes[0], Sampler::linear);
-    EXPECT_THAT(
-        [&] {
-            commands.dispatch(program, bindings, 4, {1, 1, 1});
-        },
-        ThrowsMessage<std::logic_error>(HasSubstr("too often")));
-}
-
 TEST_F(CommandsTest, HalfFloatVolumeIsLoadedAndStored) {
     const std::uint16_t one = 0x3C00;  // halves: 1, and below 1 to 3
     Image volume(context, "volume", glm::ivec3(3, 1, 2), VK_FORMAT_R16_SFLOAT);

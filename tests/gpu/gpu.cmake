@@ -3,7 +3,6 @@ lumulus_shaders(
   gpu/shaders/copy.comp
   gpu/shaders/fetch_integers.comp
   gpu/shaders/layout.comp
-  gpu/shaders/sample_array.comp
   gpu/shaders/sample_volume.comp
   gpu/shaders/scale.comp
   gpu/shaders/store_half.comp

@@ -7,7 +7,6 @@ namespace lumulus::test {
 #include "spirv/gpu/shaders/copy.comp.h"
 #include "spirv/gpu/shaders/fetch_integers.comp.h"
 #include "spirv/gpu/shaders/layout.comp.h"
-#include "spirv/gpu/shaders/sample_array.comp.h"
 #include "spirv/gpu/shaders/sample_volume.comp.h"
 #include "spirv/gpu/shaders/scale.comp.h"
 #include "spirv/gpu/shaders/store_half.comp.h"
