@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A frame as seen through the fog, from its filtered layers: the cloud, and behind it the sky without the light that the
-// cloud takes out of it, and with the light that the background has more.
+// A frame as seen through the fog, from its filtered layers: the cloud, and behind it the sky without the light that
+// the cloud takes out of it, and with the light that the background has more.
 #include "shared/fog_layers.h"
 
 layout(local_size_x = 16, local_size_y = 4) in;

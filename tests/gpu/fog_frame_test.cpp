@@ -193,6 +193,15 @@ TEST_F(FogFrameTest, OnlyAPartIsDownloadedAndOnce) {
     EXPECT_LT(after.uploaded - before.uploaded, 200U);
 }
 
+/// What the filter needs is cleared on the device: a pyramid of a 4K picture is larger than any buffer may be.
+TEST_F(FogFrameTest, NothingGoesUpForTheFilterItself) {
+    frame::Frame frame(context, {64, 36});
+    test::fillFrame(context, frame, blue, cloudPixels(blue, 1.0F), place, {});
+    const std::uint64_t before = context.transfers().uploaded;
+    Fog(context, haze(0.0, 0.0)).apply(frame, pictureCamera(), blue, {0, 0, 64, 36});
+    EXPECT_LT(context.transfers().uploaded - before, 200U);
+}
+
 /// A picture of the host goes up once and comes back once.
 TEST_F(FogFrameTest, ALayerOfTheHostGoesUpOnceAndComesBackOnce) {
     const std::size_t pixels = 64 * 36;

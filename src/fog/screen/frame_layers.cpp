@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "fog/screen/light.h"
+#include "gpu/transfer.h"
 #include "shared/draw.h"
 
 namespace lumulus::fog {

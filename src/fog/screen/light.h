@@ -2,9 +2,9 @@
 
 #include <glm/glm.hpp>
 
+#include "gpu/clear.h"
 #include "gpu/commands.h"
 #include "gpu/groups.h"
-#include "gpu/transfer.h"
 #include "shared/fog.h"
 
 namespace lumulus::fog {
@@ -27,7 +27,7 @@ struct LayerInputs {
 /// An image of zeros: what no pass writes, between the levels of a pyramid, must not hold what was there before.
 inline gpu::Image emptyImage(gpu::Context& context, const char* name, const glm::ivec2& extent, VkFormat format) {
     gpu::Image image(context, name, extent, format);
-    gpu::upload(context, image, std::vector<std::byte>(image.bytes()));
+    gpu::clear(context, image);
     return image;
 }
 
