@@ -9,7 +9,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-RUN = Path(__file__).parents[2] / "scripts/study/run"
+RUN = Path(__file__).resolve().parents[2] / "scripts/study/run"
 LUMULUS = sys.argv[1]
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 from study import pictures  # noqa: E402
 from study.layers import layer  # noqa: E402
