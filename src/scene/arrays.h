@@ -11,14 +11,15 @@ namespace lumulus::scene {
 struct ArraySection {
     std::string_view name;   ///< "fog.media", as in the names of keys
     std::string_view entry;  ///< what one entry is called in messages
-    std::size_t most;        ///< entries of a scene
-    std::string_view limit;  ///< what is said of one entry more
+    std::string_view plural;
+    std::size_t most;     ///< entries of a scene
+    std::size_t implied;  ///< entries of a scene that says nothing of them
 };
 
 inline constexpr std::array<ArraySection, 3> arraySections{{
-    {"cloud", "cloud", 1, "this version renders one cloud a scene"},
-    {"fog.media", "medium", 256, "a scene has at most 256 media"},
-    {"surface", "surface", 256, "a scene has at most 256 surfaces"},
+    {"cloud", "cloud", "clouds", 256, 1},
+    {"fog.media", "medium", "media", 256, 0},
+    {"surface", "surface", "surfaces", 256, 0},
 }};
 
 /// The array section that is `path` or that `path` lies in, or null.

@@ -23,16 +23,17 @@ may stand for a whole number. NaN and infinity are refused everywhere.
 
 - Units: metres, degrees, W/m² and W/(m² sr) per channel of linear Rec. 709. Right-handed, +Y is up.
 - Paths are relative to the scene file.
-- `[[cloud]]` stands in two brackets. This version renders one cloud; `cloud = []` is a scene without any.
+- `[[cloud]]` stands once for each cloud, at most 256 times. Where clouds overlap, their extinctions add up. A file
+  without `[[cloud]]` has one, `cloud = []` is a scene without any.
 - `[[fog.media]]` stands once for each medium; without one there is no fog. Keys that a medium's kind does not have are
   errors.
 - `[[surface]]` stands once for each opaque surface, for `lumulus reference` only: `render` refuses them.
-- `--set section.key=value` overrides a key, `--set cloud.0.extinction=0.2` one of the cloud,
-  `--set fog.media.0.visibility=500` one of the first medium. The value is TOML, or
-  else a bare string: `--set draw.mode=march`. An override of one of two keys that exclude each other (`sun.azimuth`,
-  `sun.direction_to`; `cloud.0.vdb`, `cloud.0.procedural`) takes the file's other one out; one of
-  `cloud.0.phase.model` or of the `kind` of a medium or surface takes out the parameters that it does not
-  have.
+- `--set section.key=value` overrides a key, `--set cloud.0.extinction=0.2` one of the first cloud,
+  `--set cloud.veil.extinction=0.2` one of the cloud whose `name` is `veil`, `--set fog.media.0.visibility=500` one of
+  the first medium. The index after the last one adds an entry. The value is TOML, or else a bare string:
+  `--set draw.mode=march`. An override of one of two keys that exclude each other (`sun.azimuth`, `sun.direction_to`;
+  `cloud.0.vdb`, `cloud.0.procedural`) takes the file's other one out; one of `cloud.0.phase.model` or of the `kind` of
+  a medium or surface takes out the parameters that it does not have.
 - `--quality` stands below the file: it changes only what the scene leaves out.
 )";
 

@@ -71,9 +71,9 @@ std::vector<Key> imageAndCameraKeys() {
         number("image.exposure", {-64.0, 64.0}, "0.0",
                "Photographic stops, applied before the tone map of PNG files. EXR files stay linear.",
                [](Draft& d, const Value& v) { d.scene.image.exposure = v.number; }),
-        other("camera.position", Type::vector, "(placed so that the cloud fills the picture)", "Metres.",
+        other("camera.position", Type::vector, "(placed so that the clouds fill the picture)", "Metres.",
               [](Draft& d, const Value& v) { d.scene.camera.position = v.vector; }),
-        other("camera.target", Type::vector, "(the middle of the cloud)", "The point looked at, metres.",
+        other("camera.target", Type::vector, "(the middle of the clouds)", "The point looked at, metres.",
               [](Draft& d, const Value& v) { d.scene.camera.target = v.vector; }),
         other("camera.up", Type::vector, "[0.0, 1.0, 0.0]", "A direction; not along the view.",
               [](Draft& d, const Value& v) { d.scene.camera.up = v.vector; }),
@@ -109,6 +109,10 @@ std::vector<Key> sunAndSkyKeys() {
 
 std::vector<Key> cloudKeys() {
     return {
+        other("cloud.name", Type::text, "(its index: \"0\", \"1\", …)",
+              "For messages and `--set cloud.NAME.key`. No two clouds have the same. Letters, digits, `-` and `_`, a "
+              "letter first; at most 64 of them, and not the name of a key.",
+              [](Draft& d, const Value& v) { cloudOf(d).name = v.text; }),
         other("cloud.vdb", Type::path, "(none: a procedural cloud)", "OpenVDB file. Instead of `procedural`.",
               [](Draft& d, const Value& v) { cloudOf(d).vdb = (d.folder / v.text).lexically_normal(); }),
         other("cloud.grid", Type::text, "\"\"", "Name of the grid; empty: `density`, or else the first float grid.",
@@ -162,8 +166,10 @@ std::vector<Key> preparationKeys() {
                [](Draft& d, const Value& v) { d.scene.preparation.influenceRadius = v.number; }),
         integer("preparation.max_leaves", {1.0, 16777216.0}, "32768", "Limit of leaves.",
                 [](Draft& d, const Value& v) { d.scene.preparation.maxLeaves = static_cast<int>(v.integer); }),
-        number("preparation.memory_budget", {1.0, 1048576.0}, "512.0", "MiB for the density volume on the GPU.",
-               [](Draft& d, const Value& v) { d.scene.preparation.memoryBudget = v.number; }),
+        number(
+            "preparation.memory_budget", {1.0, 1048576.0}, "512.0",
+            "MiB for the density volumes of all clouds on the GPU. Grids that need more are averaged to larger voxels.",
+            [](Draft& d, const Value& v) { d.scene.preparation.memoryBudget = v.number; }),
     };
 }
 

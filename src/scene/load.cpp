@@ -51,9 +51,9 @@ Scene parseScene(std::string_view toml, const std::string& sourceName, std::span
     draft.scene.source = sourceName;
     draft.folder = std::filesystem::path(sourceName).parent_path();
     draft.allowed = folders;
-    draft.scene.clouds.resize(settings.entries("cloud").value_or(1));
-    draft.scene.fog.media.resize(settings.entries("fog.media").value_or(0));
-    draft.scene.surfaces.resize(settings.entries("surface").value_or(0));
+    draft.scene.clouds.resize(settings.entries("cloud"));
+    draft.scene.fog.media.resize(settings.entries("fog.media"));
+    draft.scene.surfaces.resize(settings.entries("surface"));
     if (quality) applyQuality(draft.scene, *quality);
     for (const auto& [path, setting] : settings.all()) {
         draft.entry = setting.entry;

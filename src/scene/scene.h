@@ -26,8 +26,8 @@ struct Image {
 enum class Projection { perspective, orthographic, panorama };
 
 struct Camera {
-    std::optional<glm::dvec3> position;  ///< absent: placed so that the cloud fills the picture
-    std::optional<glm::dvec3> target;    ///< absent: the middle of the cloud
+    std::optional<glm::dvec3> position;  ///< absent: placed so that the clouds fill the picture
+    std::optional<glm::dvec3> target;    ///< absent: the middle of the clouds
     glm::dvec3 up{0.0, 1.0, 0.0};
     double verticalFov = 40.0;  ///< degrees; for an orthographic camera the angle that frames the target's distance
     Projection projection = Projection::perspective;
@@ -69,6 +69,7 @@ struct Phase {
 };
 
 struct Cloud {
+    std::string name;           ///< empty: its index, see nameOf
     std::filesystem::path vdb;  ///< empty: procedural
     std::string grid;           ///< empty: the first float grid, "density" preferred
     std::string procedural = "cumulus";
@@ -88,7 +89,7 @@ struct Preparation {
     double densityThreshold = 0.1;          ///< of the maximum: a leaf with a smaller range is not split further
     std::optional<double> influenceRadius;  ///< metres; absent: from the mean distance of samples
     int maxLeaves = 32768;
-    double memoryBudget = 512.0;  ///< MiB for the density volume on the GPU
+    double memoryBudget = 512.0;  ///< MiB for the density volumes of all clouds on the GPU
 
     bool operator==(const Preparation&) const = default;
 };
@@ -132,5 +133,11 @@ struct Scene {
 
     bool operator==(const Scene&) const = default;
 };
+
+/// The name of a cloud of the scene: the one that the scene gives it, or else its index.
+inline std::string nameOf(const Scene& scene, std::size_t cloud) {
+    const std::string& name = scene.clouds.at(cloud).name;
+    return name.empty() ? std::to_string(cloud) : name;
+}
 
 }  // namespace lumulus::scene

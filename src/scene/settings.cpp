@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "base/error.h"
 #include "scene/alternatives.h"
@@ -76,11 +77,17 @@ std::size_t entryIndex(const ArraySection& array, const std::string& path) {
     }
     const bool digits = !index.empty() && std::ranges::all_of(index, [](char c) { return c >= '0' && c <= '9'; });
     if (!digits || (index.size() > 1 && index[0] == '0')) {
-        throw InputError(fmt::format("the index of a {} must be a plain number, got \"{}\"", array.entry, index), where,
-                         fmt::format("write {}.0{}", name, rest.substr(index.size())));
+        const bool named = findKey(name + ".name") != nullptr;
+        throw InputError(fmt::format("the index of a {} must be a plain number{}, got \"{}\"", array.entry,
+                                     named ? " or the name of one" : "", index),
+                         where, fmt::format("write {}.0{}", name, rest.substr(index.size())));
     }
     const std::size_t entry = index.size() > 9 ? array.most : std::stoul(index);
-    if (entry >= array.most) throw InputError(std::string(array.limit), where, "leave the others out");
+    if (entry >= array.most) {
+        throw InputError(
+            fmt::format("there is no {}.{}: a scene has at most {} {}", name, index, array.most, array.plural), where,
+            fmt::format("give an index below {}", array.most));
+    }
     return entry;
 }
 
@@ -99,6 +106,8 @@ void Settings::addOverride(std::string_view text) {
     }
     std::string path(text.substr(0, equals));
     std::erase(path, ' ');
+    const ArraySection* array = arrayOf(path);
+    if (array != nullptr) path = byIndex(*array, path);
     const std::string where = "--set " + path;
     if (auto table = parseOverrideValue(text.substr(equals + 1), where)) {
         documents_.push_back(std::move(*table));
@@ -106,7 +115,6 @@ void Settings::addOverride(std::string_view text) {
         documents_.push_back(toml::table{{"value", std::string(text.substr(equals + 1))}});
     }
     const toml::node& node = *documents_.back().get("value");
-    const ArraySection* array = arrayOf(path);
     if (array != nullptr && path == array->name) {
         std::erase_if(settings_, [&](const auto& entry) { return entry.first.starts_with(path + "."); });
         collectEntries(*array, node, Origin{});
@@ -115,11 +123,22 @@ void Settings::addOverride(std::string_view text) {
     collect(node, path, array == nullptr ? path : overriddenName(*array, path), Origin{});
 }
 
+/// The path with the index of an entry in the place of its name: "cloud.veil.albedo" → "cloud.1.albedo".
+std::string Settings::byIndex(const ArraySection& array, const std::string& path) const {
+    const std::string_view given = indexIn(array, path);
+    for (std::size_t i = 0; i < entries(array.name); ++i) {
+        const Setting* name = find(fmt::format("{}.{}.name", array.name, i));
+        if (name == nullptr || given.empty() || name->node->value_or(std::string_view()) != given) continue;
+        return fmt::format("{}.{}{}", array.name, i, path.substr(array.name.size() + 1 + given.size()));
+    }
+    return path;
+}
+
 /// The schema's name for the path of an override within an array: "cloud.0.phase.g" → "cloud.phase.g". Where the entry
 /// is the next one, the array grows by it.
 std::string Settings::overriddenName(const ArraySection& array, const std::string& path) {
     const std::size_t entry = entryIndex(array, path);
-    std::size_t& count = entries_.try_emplace(std::string(array.name), 0).first->second;
+    std::size_t& count = entries_.try_emplace(std::string(array.name), array.implied).first->second;
     if (entry > count) {
         throw InputError(fmt::format("there is no {}.{}", array.name, count), "--set " + path,
                          fmt::format("the next one is {}.{}", array.name, count));
@@ -128,9 +147,9 @@ std::string Settings::overriddenName(const ArraySection& array, const std::strin
     return std::string(array.name) + path.substr(array.name.size() + 1 + indexIn(array, path).size());
 }
 
-std::optional<std::size_t> Settings::entries(std::string_view array) const {
+std::size_t Settings::entries(std::string_view array) const {
     const auto it = entries_.find(array);
-    return it == entries_.end() ? std::nullopt : std::optional(it->second);
+    return it == entries_.end() ? arrayOf(array)->implied : it->second;
 }
 
 const Setting* Settings::find(const std::string& path) const {
@@ -168,9 +187,9 @@ void Settings::collectEntries(const ArraySection& array, const toml::node& node,
                          origin.where(node, name), fmt::format("write [[{}]] with two brackets", name));
     }
     if (entries->size() > array.most) {
-        throw InputError(std::string(array.limit),
-                         origin.where(*entries->get(array.most), fmt::format("{}.{}", name, array.most)),
-                         "leave the others out");
+        throw InputError(
+            fmt::format("a scene has at most {} {}, this one has {}", array.most, array.plural, entries->size()),
+            origin.where(*entries->get(array.most), fmt::format("{}.{}", name, array.most)), "leave the others out");
     }
     entries_[name] = entries->size();
     std::size_t index = 0;

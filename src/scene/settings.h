@@ -4,7 +4,6 @@
 #include <deque>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -27,19 +26,21 @@ class Settings {
   public:
     /// The keys of a TOML document. Errors: InputError for bad TOML and for keys that do not exist.
     void addFile(std::string_view text, const std::string& source);
-    /// `section.key=value`, the value as TOML or else as a bare string. An override of one of two alternatives
-    /// (`sun.azimuth`, `sun.direction_to`) takes the file's other one out. Errors: InputError.
+    /// `section.key=value`, the value as TOML or else as a bare string. An entry of an array is given by its index or
+    /// by its `name`. An override of one of two alternatives (`sun.azimuth`, `sun.direction_to`) takes the file's other
+    /// one out. Errors: InputError.
     void addOverride(std::string_view text);
 
     const std::map<std::string, Setting>& all() const { return settings_; }
     const Setting* find(const std::string& path) const;
-    /// Number of entries of an array section; absent where nothing is said about it.
-    std::optional<std::size_t> entries(std::string_view array) const;
+    /// Number of entries of an array section; where nothing is said about it, those that are implied.
+    std::size_t entries(std::string_view array) const;
 
   private:
     struct Origin;
     void collect(const toml::node& node, const std::string& path, const std::string& name, const Origin& origin);
     void collectEntries(const ArraySection& array, const toml::node& node, const Origin& origin);
+    std::string byIndex(const ArraySection& array, const std::string& path) const;
     std::string overriddenName(const ArraySection& array, const std::string& path);
     void put(const std::string& path, Setting setting);
 

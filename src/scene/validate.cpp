@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "scene/alternatives.h"
 
 namespace lumulus::scene {
@@ -72,19 +73,20 @@ void finishSun(Draft& draft, const Settings& settings) {
 }
 
 /// A parameter that the model does not read is a mistake, unless --set has replaced the file's model.
-void checkPhase(const Phase& phase, const Settings& settings) {
+void checkPhase(const Phase& phase, const std::string& cloud, const Settings& settings) {
     const bool readsG = phase.model == PhaseModel::henyeyGreenstein || phase.model == PhaseModel::schlick;
     const bool readsDiameter = phase.model == PhaseModel::droplet;
-    const Setting* model = settings.find("cloud.0.phase.model");
-    const auto check = [&](const char* path, bool read, const char* models) {
+    const Setting* model = settings.find(cloud + ".phase.model");
+    const auto check = [&](const char* key, bool read, const char* models) {
+        const std::string path = cloud + key;
         const Setting* given = settings.find(path);
         if (given == nullptr || read || (given->fromFile && model != nullptr && !model->fromFile)) return;
         throw InputError(fmt::format("{} has no effect: the phase function is {}", path,
                                      model == nullptr ? "henyey-greenstein" : model->node->value_or("another")),
                          given->where, fmt::format("leave it out, or choose the model {}", models));
     };
-    check("cloud.0.phase.g", readsG, "henyey-greenstein or schlick");
-    check("cloud.0.phase.droplet_diameter", readsDiameter, "droplet");
+    check(".phase.g", readsG, "henyey-greenstein or schlick");
+    check(".phase.droplet_diameter", readsDiameter, "droplet");
 }
 
 /// An entry of an array whose kind decides which of its keys are read.
@@ -152,14 +154,39 @@ bool isAllowed(const std::filesystem::path& file, std::span<const std::filesyste
     });
 }
 
-void checkCloudFile(const Cloud& cloud, std::span<const std::filesystem::path> allowed, const Settings& settings) {
+void checkCloudFile(const Cloud& cloud, const std::string& path, std::span<const std::filesystem::path> allowed,
+                    const Settings& settings) {
     if (cloud.vdb.empty()) return;
     std::error_code ec;
     const bool exists = isAllowed(cloud.vdb, allowed) && std::filesystem::exists(cloud.vdb, ec);
     if (!exists || std::filesystem::is_directory(cloud.vdb, ec)) {
         throw InputError(fmt::format("{} {}", cloud.vdb.string(), exists ? "is a folder" : "does not exist"),
-                         whereOf(settings, {"cloud.0.vdb"}),
+                         whereOf(settings, {(path + ".vdb").c_str()}),
                          "give an OpenVDB file, its path relative to the scene file");
+    }
+}
+
+/// Whether `--set cloud.NAME.key` can mean nothing but the cloud of that name.
+bool isName(const std::string& name) {
+    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    const auto allowed = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '_'; };
+    return !name.empty() && name.size() <= 64 && letter(name[0]) && std::ranges::all_of(name, allowed) &&
+           findKey("cloud." + name) == nullptr && !isSection("cloud." + name);
+}
+
+void checkName(const std::vector<Cloud>& clouds, std::size_t index, const Settings& settings) {
+    const std::string path = fmt::format("cloud.{}.name", index);
+    const Setting* given = settings.find(path);
+    if (given == nullptr) return;
+    const std::string& name = clouds[index].name;
+    if (!isName(name)) {
+        throw InputError(fmt::format("\"{}\" cannot be the name of a cloud", shortened(oneLine(name), 80)),
+                         given->where, "give letters, digits, - and _, a letter first, and not the name of a key");
+    }
+    const auto same = std::ranges::find(clouds, name, &Cloud::name);
+    if (same != clouds.begin() + static_cast<std::ptrdiff_t>(index)) {
+        throw InputError(fmt::format("cloud.{} has the name \"{}\" already", same - clouds.begin(), name), given->where,
+                         "give every cloud a name of its own");
     }
 }
 
@@ -170,9 +197,12 @@ Scene finishScene(Draft draft, const Settings& settings) {
     checkImage(draft.scene.image, settings);
     checkCamera(draft.scene.camera, settings);
     finishSun(draft, settings);
-    for (const Cloud& cloud : draft.scene.clouds) {
-        checkPhase(cloud.phase, settings);
-        checkCloudFile(cloud, draft.allowed, settings);
+    for (std::size_t i = 0; i < draft.scene.clouds.size(); ++i) {
+        const Cloud& cloud = draft.scene.clouds[i];
+        const std::string path = fmt::format("cloud.{}", i);
+        checkName(draft.scene.clouds, i, settings);
+        checkPhase(cloud.phase, path, settings);
+        checkCloudFile(cloud, path, draft.allowed, settings);
     }
     checkFog(draft.scene.fog, settings);
     for (std::size_t i = 0; i < draft.scene.fog.media.size(); ++i) finishMedium(draft.scene.fog.media[i], i, settings);
