@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "vdb/file.h"
@@ -128,6 +129,13 @@ std::int64_t fitLimits(const IndexBox& crop, const LoadOptions& options, const f
     return n;
 }
 
+/// MiB at the full resolution, or the one that the limit of the extent leaves.
+double wantedMiB(const IndexBox& crop, const LoadOptions& options) {
+    const std::int64_t n = chooseCoarsening(crop.extent(), std::numeric_limits<double>::infinity(), options.maxExtent);
+    const glm::dvec3 size = glm::dvec3(coarseSize(crop.extent(), n)) + 2.0;
+    return 2.0 * size.x * size.y * size.z / (1024.0 * 1024.0);
+}
+
 /// Corner-based voxel coordinates of the result, ring included, → index coordinates of the grid.
 Affine voxelToIndex(const IndexBox& crop, std::int64_t n) {
     const auto edge = static_cast<double>(n);
@@ -140,7 +148,8 @@ Affine voxelToIndex(const IndexBox& crop, std::int64_t n) {
 LoadResult convert(const openvdb::GridBase& base, const LoadOptions& options, const fs::path& path) {
     LoadResult result;
     const std::string name = base.getName();
-    const Affine toWorld = composeTransforms(options.transform, gridTransform(base, path), path.string());
+    // the grid's own transform may be singular as well
+    result.gridToWorld = composeTransforms(glm::dmat4(1.0), gridTransform(base, path), path.string());
     const SparseField field = listBlocks(static_cast<const openvdb::FloatGrid&>(base).tree());
     Survey survey;
     if (!field.bounds.empty()) survey = surveyField(field);
@@ -156,9 +165,10 @@ LoadResult convert(const openvdb::GridBase& base, const LoadOptions& options, co
         survey.occupied = {field.bounds.minimum, field.bounds.minimum};
     }
     const std::int64_t n = fitLimits(survey.occupied, options, path, result);
+    result.wantedMiB = wantedMiB(survey.occupied, options);
     result.volume = rasteriseField(field, survey.occupied, n);
-    const Affine index = voxelToIndex(survey.occupied, n);
-    result.volume.toWorld = {toWorld.linear * index.linear, toWorld.point(index.translation)};
+    result.voxelToGrid = voxelToIndex(survey.occupied, n);
+    result.volume.toWorld = composed(result.gridToWorld, result.voxelToGrid);
     result.volume.name = name;
     return result;
 }

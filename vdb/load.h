@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -11,13 +10,15 @@ namespace lumulus::vdb {
 
 struct LoadOptions {
     std::string grid;                ///< name; empty: "density" if it is there, else the first float grid
-    glm::dmat4 transform{1.0};       ///< affine, applied after the grid's own transform
     double memoryBudgetMiB = 512.0;  ///< for the dense volume at 2 bytes a voxel (R16F on the GPU)
     int maxExtent = 2048;            ///< voxels along a side, with the ring (a limit of 3D textures)
 };
 
 struct LoadResult {
-    Volume volume;
+    Volume volume;                      ///< placed by the grid's own transform
+    Affine gridToWorld;                 ///< the grid's own transform: index coordinates → metres
+    Affine voxelToGrid;                 ///< voxel coordinates of the volume → index coordinates
+    double wantedMiB = 0.0;             ///< what the volume would take without a budget
     std::vector<std::string> warnings;  ///< what a person should know, one line each
 };
 
@@ -27,7 +28,7 @@ struct LoadResult {
 /// over boxes of n³ voxels, n as small as possible, which preserves its mass; memory then goes with the result, not
 /// with the full resolution. A grid without density gives a volume with `maximum` 0 and a warning. Throws InputError
 /// for a file that cannot be read (missing, no OpenVDB, truncated, damaged), a grid that is not there, of another type
-/// or a level set, a transform that is not affine or singular, and for values that are no densities (negative,
+/// or a level set, a grid whose transform is not affine or is singular, and for values that are no densities (negative,
 /// infinite, not a number; the one with the lexicographically smallest index coordinate is named). Throws Error where
 /// interrupted.
 LoadResult load(const std::filesystem::path& path, const LoadOptions& options);

@@ -12,4 +12,9 @@ namespace lumulus::vdb {
 /// changes.
 Affine composeTransforms(const glm::dmat4& outer, const Affine& inner, const std::string& where);
 
+/// `outer` applied after `inner`; neither is checked.
+inline Affine composed(const Affine& outer, const Affine& inner) {
+    return {outer.linear * inner.linear, outer.point(inner.translation)};
+}
+
 }  // namespace lumulus::vdb

@@ -113,16 +113,43 @@ std::vector<glm::ivec3> outerEnds(const std::vector<Line>& lines) {
 
 }  // namespace
 
-Bounds boundsOf(const vdb::Volume& volume) {
+Bounds boundsOf(const vdb::PlacedVolume& cloud) {
+    const vdb::Volume& volume = *cloud.volume;
     Bounds bounds;
     VoxelBox all;
     for (const glm::ivec3& corner : outerEnds(outerLines(volume, all)))
-        bounds.outline.push_back(volume.toWorld.point(glm::dvec3(corner)));
+        bounds.outline.push_back(cloud.toWorld.point(glm::dvec3(corner)));
     if (!all.filled()) all = {glm::ivec3(0), volume.size};
-    bounds.centre = volume.toWorld.point(0.5 * glm::dvec3(all.low + all.high));
+    bounds.centre = cloud.toWorld.point(0.5 * glm::dvec3(all.low + all.high));
     const glm::dvec3 half = 0.5 * glm::dvec3(all.high - all.low);
-    for (int axis = 0; axis < 3; ++axis) bounds.halfAxes[axis] = volume.toWorld.linear[axis] * half[axis];
+    for (int axis = 0; axis < 3; ++axis) bounds.halfAxes[axis] = cloud.toWorld.linear[axis] * half[axis];
     return bounds;
+}
+
+Bounds unite(std::span<const Bounds> parts) {
+    if (parts.empty()) return {};
+    if (parts.size() == 1) return parts.front();
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+    Bounds whole;
+    for (const Bounds& part : parts) {
+        const auto corners = part.corners();
+        for (const glm::dvec3& corner : corners) {
+            low = glm::min(low, corner);
+            high = glm::max(high, corner);
+        }
+        const std::span<const glm::dvec3> points = part.outline.empty() ? std::span(corners) : std::span(part.outline);
+        whole.outline.insert(whole.outline.end(), points.begin(), points.end());
+    }
+    whole.centre = 0.5 * (low + high);
+    const glm::dvec3 half = 0.5 * (high - low);
+    whole.halfAxes = glm::dmat3(half.x, 0.0, 0.0, 0.0, half.y, 0.0, 0.0, 0.0, half.z);
+    return whole;
+}
+
+Bounds boundsOf(std::span<const vdb::PlacedVolume> clouds) {
+    std::vector<Bounds> parts;
+    for (const vdb::PlacedVolume& cloud : clouds) parts.push_back(boundsOf(cloud));
+    return unite(parts);
 }
 
 }  // namespace lumulus

@@ -2,13 +2,14 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
-#include "vdb/volume.h"
+#include "vdb/placed_volume.h"
 
 namespace lumulus {
 
-/// Where a cloud is: a box, turned and sheared as its grid is. Metres.
+/// Where a cloud, or several of them, are: a box, turned and sheared as its grid is. Metres.
 struct Bounds {
     glm::dvec3 centre{0.0};
     glm::dmat3 halfAxes{500.0};       ///< columns: from the centre to the middles of three faces
@@ -19,6 +20,13 @@ struct Bounds {
 };
 
 /// The box of the voxels that are not zero; of all voxels where all are.
-Bounds boundsOf(const vdb::Volume& volume);
+Bounds boundsOf(const vdb::PlacedVolume& cloud);
+
+/// What holds all of `parts`: for several of them a box along the world's axes around all their corners, with the
+/// outlines of all; for one of them that one; for none the default.
+Bounds unite(std::span<const Bounds> parts);
+
+/// The bounds of all clouds together.
+Bounds boundsOf(std::span<const vdb::PlacedVolume> clouds);
 
 }  // namespace lumulus

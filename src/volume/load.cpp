@@ -1,30 +1,140 @@
 #include "volume/load.h"
 
-#include "base/error.h"
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
 #include "vdb/load.h"
 #include "vdb/procedural.h"
+#include "vdb/transform.h"
 
 namespace lumulus {
+namespace {
+
+constexpr double bytesPerMiB = 1048576.0;
+
+/// What a field depends on: clouds that agree in it share the field.
+auto sourceOf(const scene::Cloud& cloud) {
+    const bool file = !cloud.vdb.empty();
+    return std::tuple(cloud.vdb, file ? cloud.grid : std::string(), file ? std::string() : cloud.procedural,
+                      file ? 0 : cloud.resolution, file ? 0 : cloud.seed);
+}
+
+/// A field as its source gives it, and how far its memory can be told.
+struct Source {
+    const scene::Cloud* cloud;  ///< the first one of this source
+    std::size_t index;          ///< of that cloud in the scene
+    vdb::LoadResult loaded;
+
+    bool isFile() const { return !cloud->vdb.empty(); }
+    /// Metres from voxel coordinates under a transform of the scene.
+    vdb::Affine placeUnder(const glm::dmat4& transform, const std::string& where) const {
+        return vdb::composed(vdb::composeTransforms(transform, loaded.gridToWorld, where), loaded.voxelToGrid);
+    }
+};
+
+/// MiB at the two bytes that a voxel takes on the GPU.
+double sizeOf(const vdb::Volume& volume) {
+    return 2.0 * static_cast<double>(volume.density.size()) / bytesPerMiB;
+}
+
+vdb::LoadResult load(const scene::Cloud& cloud, double memoryBudget, const Report& report) {
+    if (!cloud.vdb.empty()) {
+        report("loading the cloud", 0, 1);
+        vdb::LoadResult loaded = vdb::load(cloud.vdb, {.grid = cloud.grid, .memoryBudgetMiB = memoryBudget});
+        report("loading the cloud", 1, 1);
+        return loaded;
+    }
+    vdb::LoadResult made;
+    made.volume = vdb::makeCloud({cloud.procedural, cloud.resolution, cloud.seed}, report);
+    made.gridToWorld = made.volume.toWorld;
+    made.wantedMiB = sizeOf(made.volume);
+    return made;
+}
+
+/// The most that one of several may take of a budget, so that those that want less get what they want and the others
+/// the same.
+double evenShare(std::vector<double> wanted, double budget) {
+    std::ranges::sort(wanted);
+    auto left = static_cast<double>(wanted.size());
+    for (const double want : wanted) {
+        if (want * left > budget) break;
+        budget -= want;
+        left -= 1.0;
+    }
+    return left > 0.0 ? std::max(budget, 0.0) / left : budget;
+}
+
+/// Loads all sources. Only so much is held at a time as the budget and one more field take.
+void loadAll(std::vector<Source>& sources, double budget, const Report& report) {
+    double held = 0.0, total = 0.0, left = budget;
+    std::vector<double> wanted;
+    for (Source& source : sources) {
+        source.loaded = load(*source.cloud, budget, report);
+        const double size = sizeOf(source.loaded.volume);
+        total += source.loaded.wantedMiB;
+        if (source.isFile()) {
+            wanted.push_back(source.loaded.wantedMiB);
+        } else {
+            left -= source.loaded.wantedMiB;
+        }
+        const bool drop = source.isFile() && sources.size() > 1 && held + size > budget;
+        if (drop) source.loaded.volume.density = {};
+        held += drop ? 0.0 : size;
+    }
+    if (sources.size() < 2 || total <= budget) return;
+    const double share = evenShare(std::move(wanted), left);
+    for (Source& source : sources) {
+        const bool dropped = source.loaded.volume.density.empty();
+        if (!source.isFile() || (!dropped && sizeOf(source.loaded.volume) <= share)) continue;
+        source.loaded.volume.density = {};
+        source.loaded = load(*source.cloud, share, report);
+    }
+}
+
+/// The different sources of the clouds; `volumeOf` becomes the index of each cloud's.
+std::vector<Source> differentSources(const std::vector<scene::Cloud>& clouds, std::vector<std::size_t>& volumeOf) {
+    std::vector<Source> sources;
+    for (std::size_t i = 0; i < clouds.size(); ++i) {
+        const auto same = std::ranges::find_if(
+            sources, [&](const Source& source) { return sourceOf(*source.cloud) == sourceOf(clouds[i]); });
+        volumeOf.push_back(static_cast<std::size_t>(same - sources.begin()));
+        if (same == sources.end()) sources.push_back({&clouds[i], i, {}});
+    }
+    return sources;
+}
+
+}  // namespace
+
+std::vector<vdb::PlacedVolume> CloudVolumes::placed() const {
+    std::vector<vdb::PlacedVolume> result;
+    for (const Cloud& cloud : clouds) result.emplace_back(volumes[cloud.volume], cloud.toWorld);
+    return result;
+}
+
+CloudVolumes loadClouds(const scene::Scene& scene, const Report& report) {
+    std::vector<std::size_t> volumeOf;
+    std::vector<Source> sources = differentSources(scene.clouds, volumeOf);
+    loadAll(sources, scene.preparation.memoryBudget, report);
+    CloudVolumes result;
+    for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
+        const std::string where = "cloud." + std::to_string(i) + ".transform";
+        result.clouds.push_back({volumeOf[i], sources[volumeOf[i]].placeUnder(scene.clouds[i].transform, where)});
+    }
+    for (Source& source : sources) {
+        for (const std::string& warning : source.loaded.warnings) {
+            const bool alone = scene.clouds.size() == 1;
+            result.warnings.push_back(alone ? warning : "cloud." + std::to_string(source.index) + ": " + warning);
+        }
+        result.volumes.push_back(std::move(source.loaded.volume));
+    }
+    return result;
+}
 
 CloudVolume loadCloudVolume(const scene::Cloud& cloud, double memoryBudget, const Report& report) {
-    if (!cloud.vdb.empty()) {
-        vdb::LoadOptions options;
-        options.grid = cloud.grid;
-        options.transform = cloud.transform;
-        options.memoryBudgetMiB = memoryBudget;
-        report("loading the cloud", 0, 1);
-        vdb::LoadResult loaded = vdb::load(cloud.vdb, options);
-        report("loading the cloud", 1, 1);
-        return {std::move(loaded.volume), std::move(loaded.warnings)};
-    }
-    CloudVolume made;
-    made.volume = vdb::makeCloud({cloud.procedural, cloud.resolution, cloud.seed}, report);
-    const glm::dmat3 linear(cloud.transform);
-    if (!(glm::determinant(linear) != 0.0))
-        throw InputError("the transform is singular", "cloud.0.transform", "give one that can be inverted");
-    made.volume.toWorld = {linear * made.volume.toWorld.linear,
-                           linear * made.volume.toWorld.translation + glm::dvec3(cloud.transform[3])};
-    return made;
+    Source source{&cloud, 0, load(cloud, memoryBudget, report)};
+    source.loaded.volume.toWorld = source.placeUnder(cloud.transform, "cloud.0.transform");
+    return {std::move(source.loaded.volume), std::move(source.loaded.warnings)};
 }
 
 }  // namespace lumulus

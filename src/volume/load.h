@@ -1,22 +1,46 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "base/progress.h"
 #include "scene/scene.h"
-#include "vdb/volume.h"
+#include "vdb/placed_volume.h"
 
 namespace lumulus {
 
-/// The density of a scene's cloud, with what there is to warn of.
+/// The density fields of a scene's clouds. Clouds of the same source (file and grid, or kind, resolution and seed)
+/// share one field, which is loaded once; each cloud has a place of its own.
+struct CloudVolumes {
+    /// Which field a cloud shows, and where.
+    struct Cloud {
+        std::size_t volume = 0;  ///< index into `volumes`
+        vdb::Affine toWorld;     ///< voxel coordinates → metres, with the scene's `transform`
+    };
+
+    std::vector<vdb::Volume> volumes;   ///< at their own places, without the scene's `transform`
+    std::vector<Cloud> clouds;          ///< as many as the scene has, in its order
+    std::vector<std::string> warnings;  ///< what a person should know, one line each
+
+    /// The clouds one by one. They point into `volumes`.
+    std::vector<vdb::PlacedVolume> placed() const;
+};
+
+/// Loads or makes the clouds of a scene. All fields together keep to `preparation.memory_budget` as far as files go:
+/// procedural clouds have the resolution that the scene asks for. Where the rest of the budget is too small, files that
+/// need no more than an even share of it are loaded in full, and the others are averaged to an even share of what is
+/// left. Errors: InputError for bad grids, a transform that is singular or a budget below one voxel; Error where
+/// interrupted.
+CloudVolumes loadClouds(const scene::Scene& scene, const Report& report = noReport);
+
+/// The density of one cloud, with what there is to warn of.
 struct CloudVolume {
     vdb::Volume volume;
     std::vector<std::string> warnings;
 };
 
-/// Loads or makes the cloud, its transform applied. `memoryBudget` in MiB. Errors: InputError for bad grids, Error
-/// where interrupted.
+/// Loads or makes one cloud, its transform applied. `memoryBudget` in MiB. Errors: those of loadClouds.
 CloudVolume loadCloudVolume(const scene::Cloud& cloud, double memoryBudget, const Report& report = noReport);
 
 }  // namespace lumulus
