@@ -17,9 +17,8 @@ double secondsSince(Clock::time_point start) {
 }
 
 reference::Renderer tracerOf(const scene::Scene& scene, std::uint64_t seed) {
-    if (scene.clouds.empty()) return {scene, nullptr, reference::Majorant::local, seed};
-    const CloudVolume cloud = loadCloudVolume(scene.clouds[0], scene.preparation.memoryBudget);
-    return {scene, &cloud.volume, reference::Majorant::local, seed};
+    const CloudVolumes clouds = loadClouds(scene);
+    return {scene, clouds.placed(), reference::Majorant::local, seed};
 }
 
 /// Passes until `budget` seconds are spent in all; returns the seconds spent, `spent` of them before.

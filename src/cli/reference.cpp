@@ -49,10 +49,9 @@ void checkOptions(const ReferenceOptions& options) {
 
 reference::Renderer rendererOf(const ReferenceOptions& options, const scene::Scene& scene) {
     const auto majorant = options.localMajorant ? reference::Majorant::local : reference::Majorant::global;
-    if (scene.clouds.empty()) return {scene, nullptr, majorant, scene.photonMap.seed};
-    const CloudVolume cloud = loadCloudVolume(scene.clouds[0], scene.preparation.memoryBudget);
-    for (const std::string& warning : cloud.warnings) logWarning(warning);
-    return {scene, &cloud.volume, majorant, scene.photonMap.seed};
+    const CloudVolumes clouds = loadClouds(scene);
+    for (const std::string& warning : clouds.warnings) logWarning(warning);
+    return {scene, clouds.placed(), majorant, scene.photonMap.seed};
 }
 
 /// An earlier run's film, where there is one.

@@ -50,7 +50,7 @@ void putLines(const Film& film, LayeredImage& image) {
 
 }  // namespace
 
-LayeredImage picture(const Film& film, const glm::dvec3& sky, const glm::dvec3& disc) {
+LayeredImage picture(const Film& film, const glm::dvec3& skyUnit, const glm::dvec3& disc) {
     assert(film.samples > 0);
     LayeredImage image;
     image.width = film.width;
@@ -60,7 +60,7 @@ LayeredImage picture(const Film& film, const glm::dvec3& sky, const glm::dvec3& 
     const Layers variance = film.samples > 1 ? layersOf(image, "variance.") : Layers{};
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         const PixelSums& sums = film.pixels[i];
-        const glm::dvec3 mean = (sums.scattered + sums.passed * sky + sums.disc * disc) / n;
+        const glm::dvec3 mean = (sums.scattered + sums.passed * skyUnit + sums.disc * disc) / n;
         put(radiance, i, mean);
         put(cloud, i, sums.scattered / n);
         if (film.samples > 1) put(variance, i, varianceOfMean(sums.square / n, mean, n));

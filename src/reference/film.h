@@ -14,7 +14,7 @@ namespace lumulus::reference {
 struct PixelSums {
     glm::dvec3 scattered{0.0};      ///< radiance of all but the sky and sun directly behind
     glm::dvec3 square{0.0};         ///< squares of the whole radiance
-    glm::dvec3 passed{0.0};         ///< weights of the sky directly behind
+    glm::dvec3 passed{0.0};         ///< radiance of the sky directly behind, in Environment::unit
     glm::dvec3 disc{0.0};           ///< transmittance of the samples that look at the sun's disc
     double discSamples = 0.0;       ///< how many look there
     glm::dvec3 transmittance{0.0};  ///< of cloud, fog and surfaces
@@ -48,7 +48,8 @@ constexpr double farDepth = 1e10;
 /// The means as layers: R, G, B, A, cloud.{R,G,B} (all light but the sky and sun directly behind),
 /// transmittance.{R,G,B} (of cloud, fog and surfaces; A is 1 less their mean), depth.Z (of cloud and surfaces; fog has
 /// no depth), from two samples on variance.{R,G,B} (of the mean, not of a sample), and sun.disc, the share of the pixel
-/// that the sun's disc covers, where it is in the picture. `sky` and `disc` are radiances. At least one sample.
-LayeredImage picture(const Film& film, const glm::dvec3& sky, const glm::dvec3& disc);
+/// that the sun's disc covers, where it is in the picture. `skyUnit` is Environment::unit and `disc` the radiance of
+/// the disc. At least one sample.
+LayeredImage picture(const Film& film, const glm::dvec3& skyUnit, const glm::dvec3& disc);
 
 }  // namespace lumulus::reference

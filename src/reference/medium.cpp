@@ -60,12 +60,13 @@ void eachPiece(const Medium& medium, const VoxelRay& ray, Visit&& visit) {
 
 }  // namespace
 
-Medium::Medium(const vdb::Volume& volume, double extinction)
-    : size_(volume.size),
+Medium::Medium(const vdb::PlacedVolume& cloud, double extinction)
+    : size_(cloud.volume->size),
       extinction_(extinction),
       maximumDensity_(0.0),
-      toVoxel_(glm::inverse(volume.toWorld.linear)),
-      translation_(volume.toWorld.translation) {
+      toVoxel_(glm::inverse(cloud.toWorld.linear)),
+      translation_(cloud.toWorld.translation) {
+    const vdb::Volume& volume = *cloud.volume;
     const std::size_t bricksX = bricksAlong(size_.x, brick.x), bricksY = bricksAlong(size_.y, brick.y);
     offsetX_ = offsetsOf(size_.x, brick.x, brickVoxels, 1);
     offsetY_ = offsetsOf(size_.y, brick.y, brickVoxels * bricksX, 4);
@@ -116,23 +117,57 @@ std::optional<Interval> Medium::clip(const VoxelRay& ray) const {
     return interval;
 }
 
-LineIntegrals integrateAlong(const Medium& medium, const VoxelRay& ray, double limit) {
-    LineIntegrals result;
+std::vector<OpticalPiece> opticalPieces(const Medium& medium, const VoxelRay& ray, double limit) {
+    std::vector<OpticalPiece> pieces;
+    double passed = 1.0;
     constexpr double gauss = 0.28867513459481287;  // 1/(2√3)
     eachPiece(medium, ray, [&](const Interval& whole) {
         const Interval piece{whole.begin, std::min(whole.end, limit)};
         if (!(piece.begin < limit)) return false;
         const double length = piece.end - piece.begin, middle = 0.5 * (piece.begin + piece.end);
-        const double tau =
+        const double depth =
             0.5 * length * medium.extinctionScale() *
             (densityAt(medium, ray, middle - gauss * length) + densityAt(medium, ray, middle + gauss * length));
-        if (tau > 0.0) {
-            const double collided = -std::expm1(-tau);
-            result.distance += result.transmittance * collided * (piece.begin + length * meanPosition(tau));
-            result.transmittance *= 1.0 - collided;
+        if (depth > 0.0) {
+            pieces.push_back({piece, depth});
+            passed *= std::exp(-depth);
         }
-        return result.transmittance > 0.0;
+        return passed > 0.0;
     });
+    return pieces;
+}
+
+LineIntegrals integrateAlong(std::span<const std::vector<OpticalPiece>> media) {
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    LineIntegrals result;
+    std::vector<std::size_t> current(media.size(), 0);  // the piece that each medium has come to
+    const auto pieceOf = [&](std::size_t m) { return current[m] < media[m].size() ? &media[m][current[m]] : nullptr; };
+    for (double begin = -endless; result.transmittance > 0.0;) {
+        // from here to the next end or beginning of a piece of any medium
+        double start = endless, end = endless;
+        for (std::size_t m = 0; m < media.size(); ++m) {
+            if (const OpticalPiece* piece = pieceOf(m)) start = std::min(start, piece->interval.begin);
+        }
+        begin = std::max(begin, start);
+        for (std::size_t m = 0; m < media.size(); ++m) {
+            const OpticalPiece* piece = pieceOf(m);
+            if (piece != nullptr)
+                end = std::min(end, piece->interval.begin > begin ? piece->interval.begin : piece->interval.end);
+        }
+        if (end == endless) return result;
+        const double length = end - begin;
+        double depth = 0.0;
+        for (std::size_t m = 0; m < media.size(); ++m) {
+            const OpticalPiece* piece = pieceOf(m);
+            if (piece == nullptr || piece->interval.begin > begin) continue;
+            depth += piece->depth * (length / (piece->interval.end - piece->interval.begin));
+            if (piece->interval.end <= end) ++current[m];
+        }
+        const double collided = -std::expm1(-depth);
+        result.distance += result.transmittance * collided * (begin + length * meanPosition(depth));
+        result.transmittance *= 1.0 - collided;
+        begin = end;
+    }
     return result;
 }
 

@@ -3,9 +3,10 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "vdb/volume.h"
+#include "vdb/placed_volume.h"
 #include "view/camera.h"
 
 namespace lumulus::reference {
@@ -29,7 +30,7 @@ struct Interval {
 class Medium {
   public:
     /// `extinction` [1/m] at density 1.
-    Medium(const vdb::Volume& volume, double extinction);
+    Medium(const vdb::PlacedVolume& cloud, double extinction);
 
     const glm::ivec3& size() const { return size_; }
     /// Largest density of a voxel.
@@ -84,17 +85,26 @@ inline double Medium::density(const glm::dvec3& p) const {
     return static_cast<double>(near + fz * (far - near));
 }
 
-/// What a ray meets in the whole medium.
+/// A part of a ray in which σt is taken as constant.
+struct OpticalPiece {
+    Interval interval;
+    double depth = 0.0;  ///< optical, above 0
+};
+
+/// The optical depth along the ray without noise, in pieces, nearest first: between voxel centres the trilinear density
+/// is a cubic polynomial in t, which Gauss's two points integrate exactly. Up to `limit` metres, or to where nothing
+/// passes.
+std::vector<OpticalPiece> opticalPieces(const Medium& medium, const VoxelRay& ray,
+                                        double limit = std::numeric_limits<double>::infinity());
+
+/// What a ray meets on its whole way.
 struct LineIntegrals {
     double transmittance = 1.0;
     double distance = 0.0;  ///< ∫ t T σt dt, metres from the ray's origin: over 1 − T, the mean distance
 };
 
-/// Integrals along the ray without noise: between voxel centres the trilinear density is a cubic polynomial in t, which
-/// Gauss's two points integrate exactly; the distance takes σt as constant within each such piece. Up to `limit`
-/// metres.
-LineIntegrals integrateAlong(const Medium& medium, const VoxelRay& ray,
-                             double limit = std::numeric_limits<double>::infinity());
+/// Integrals along a ray through media whose pieces are given, each list in order. Media that overlap add up.
+LineIntegrals integrateAlong(std::span<const std::vector<OpticalPiece>> media);
 
 /// Metres from the ray's origin to where it first meets a density above 0; absent where it meets none.
 std::optional<double> frontAlong(const Medium& medium, const VoxelRay& ray);

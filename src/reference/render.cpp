@@ -14,11 +14,12 @@ void addVector(Fingerprint& print, const glm::dvec3& v) {
     print.add(v.x).add(v.y).add(v.z);
 }
 
-void addCloud(Fingerprint& print, const scene::Cloud& cloud, const vdb::Volume& volume) {
+void addCloud(Fingerprint& print, const scene::Cloud& cloud, const vdb::PlacedVolume& placed) {
+    const vdb::Volume& volume = *placed.volume;
     print.add(volume.size.x).add(volume.size.y).add(volume.size.z);
     print.add(std::as_bytes(std::span(volume.density)));
-    for (int axis = 0; axis < 3; ++axis) addVector(print, volume.toWorld.linear[axis]);
-    addVector(print, volume.toWorld.translation);
+    for (int axis = 0; axis < 3; ++axis) addVector(print, placed.toWorld.linear[axis]);
+    addVector(print, placed.toWorld.translation);
     print.add(cloud.extinction * cloud.densityScale).add(cloud.phase.model).add(cloud.phase.g);
     print.add(cloud.phase.dropletDiameter);
     addVector(print, cloud.albedo);
@@ -49,15 +50,15 @@ void addSurface(Fingerprint& print, const scene::Surface& surface) {
     }
 }
 
-std::uint64_t fingerprintOf(const scene::Scene& scene, const vdb::Volume* volume, const Camera& camera,
-                            Majorant majorant, std::uint64_t seed) {
+std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes,
+                            const Camera& camera, Majorant majorant, std::uint64_t seed) {
     Fingerprint print;
     print.add(seed).add(majorant).add(scene.sun.angularDiameter);
     addVector(print, scene.sun.directionTo);
     addVector(print, scene.sun.irradiance);
     addVector(print, scene.sky.radiance);
     addCamera(print, camera);
-    if (volume != nullptr && !scene.clouds.empty()) addCloud(print, scene.clouds.front(), *volume);
+    for (std::size_t i = 0; i < volumes.size(); ++i) addCloud(print, scene.clouds[i], volumes[i]);
     if (!scene.fog.media.empty()) addFog(print, scene.fog);
     for (const scene::Surface& surface : scene.surfaces) addSurface(print, surface);
     return print.value();
@@ -65,12 +66,13 @@ std::uint64_t fingerprintOf(const scene::Scene& scene, const vdb::Volume* volume
 
 }  // namespace
 
-Renderer::Renderer(const scene::Scene& scene, const vdb::Volume* volume, Majorant majorant, std::uint64_t seed)
-    : camera_(makeCamera(scene.camera, scene.image, volume != nullptr ? boundsOf(*volume) : Bounds{})),
-      tracer_(scene, volume, majorant, camera_.position),
-      discRadiance_(tracer_.discRadiance(scene.sun.directionTo)),
+Renderer::Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
+                   std::uint64_t seed)
+    : camera_(makeCamera(scene.camera, scene.image, boundsOf(volumes))),
+      tracer_(scene, volumes, majorant, camera_.position),
+      discRadiance_(tracer_.environment().discRadiance(camera_.position, scene.sun.directionTo)),
       seed_(seed),
-      fingerprint_(fingerprintOf(scene, volume, camera_, majorant, seed)) {
+      fingerprint_(fingerprintOf(scene, volumes, camera_, majorant, seed)) {
     film_.width = scene.image.width;
     film_.height = scene.image.height;
     pass_.resize(static_cast<std::size_t>(film_.width) * static_cast<std::size_t>(film_.height));
@@ -93,7 +95,7 @@ Renderer::Sample Renderer::sample(int x, int y) const {
     result.lost = path.lost;
     result.sums.scattered = path.radiance;
     result.sums.passed = path.passed;
-    const bool atDisc = tracer_.discRadiance(ray.direction) != glm::dvec3(0.0);
+    const bool atDisc = tracer_.environment().discRadiance(ray.origin, ray.direction) != glm::dvec3(0.0);
     const bool forLines = isLineSample(film_.samples);
     if (atDisc || forLines) {
         const RayIntegrals line = tracer_.integrate(ray);
@@ -108,7 +110,7 @@ Renderer::Sample Renderer::sample(int x, int y) const {
         }
     }
     const glm::dvec3 radiance =
-        result.sums.scattered + result.sums.passed * tracer_.sky() + result.sums.disc * discRadiance_;
+        result.sums.scattered + result.sums.passed * tracer_.environment().unit() + result.sums.disc * discRadiance_;
     result.sums.square = radiance * radiance;
     return result;
 }
@@ -142,7 +144,7 @@ bool Renderer::pass(const Continue& goOn) {
 }
 
 LayeredImage Renderer::picture() const {
-    LayeredImage image = reference::picture(film_, tracer_.sky(), discRadiance_);
+    LayeredImage image = reference::picture(film_, tracer_.environment().unit(), discRadiance_);
     std::vector<float>& front = image.layer("depth.front");
     tbb::parallel_for(0, film_.width * film_.height, [&](int pixel) {
         const Ray middle = camera_.ray(pixel % film_.width + 0.5, pixel / film_.width + 0.5);

@@ -15,9 +15,10 @@ class Renderer {
     /// Called between bands of rows with the number of rows done since the last call; false stops the pass.
     using Continue = std::function<bool(std::uint64_t rows)>;
 
-    /// `volume` is read in the constructor only; null: a scene without a cloud.
+    /// `volumes`: one for each cloud of the scene, read in the constructor only.
     /// Errors: InputError for a scene that makes no sense (see makeCamera, PhaseFunction).
-    Renderer(const scene::Scene& scene, const vdb::Volume* volume, Majorant majorant, std::uint64_t seed);
+    Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
+             std::uint64_t seed);
 
     /// One more sample of every pixel, at a random point of the pixel (a box filter), on all threads of TBB. A pass
     /// that is stopped leaves the film as it was, and returns false.

@@ -32,64 +32,19 @@ bool survives(glm::dvec3& throughput, double chance, Random& random) {
     return true;
 }
 
-/// The part of the ray within the medium's box and before `limit` metres.
-std::optional<Interval> clipped(const Medium& medium, const VoxelRay& ray, double limit) {
-    std::optional<Interval> inside = medium.clip(ray);
-    if (!inside || !(inside->begin < limit)) return std::nullopt;
-    inside->end = std::min(inside->end, limit);
-    return inside;
-}
-
 }  // namespace
 
-double ratioTrack(const Medium& medium, const MajorantGrid& majorants, const VoxelRay& ray, Random& random,
-                  double weight, double threshold, double limit) {
-    const std::optional<Interval> inside = clipped(medium, ray, limit);
-    if (!inside) return weight;
-    majorants.walk(ray, *inside, random, [&](double t, double majorant) {
-        weight *= std::max(0.0, 1.0 - medium.extinctionScale() * medium.density(ray.at(t)) / majorant);
-        if (weight < threshold) {
-            weight = random.uniform() * threshold < weight ? threshold : 0.0;
-        }
-        return weight == 0.0;
-    });
-    return weight;
-}
-
-PathTracer::PathTracer(const scene::Scene& scene, const vdb::Volume* volume, Majorant majorant, const glm::dvec3& eye)
-    : fog_(scene.fog, eye),
+PathTracer::PathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
+                       const glm::dvec3& eye)
+    : environment_(scene.sky, scene.sun),
+      clouds_(scene.clouds, volumes, majorant),
+      fog_(scene.fog, eye),
       surfaces_(scene.surfaces),
       lamps_(scene.surfaces),
-      inscattering_(scene.fog.inscattering),
-      sky_(scene.sky.radiance),
-      sunDirection_(glm::normalize(scene.sun.directionTo)) {
-    const double radius = 0.5 * glm::radians(scene.sun.angularDiameter);
-    sunCone_ = 2.0 * std::sin(0.5 * radius) * std::sin(0.5 * radius);
-    // irradiance counts the disc's points by the cosine to its middle: E = L π sin²; the fluence does not: L 2π(1 −
-    // cos)
-    sunFluence_ = scene.sun.irradiance * (2.0 / (2.0 - sunCone_));
-    if (radius > 0.0) sunRadiance_ = scene.sun.irradiance / (glm::pi<double>() * std::sin(radius) * std::sin(radius));
-    sunny_ = largest(sunFluence_) > 0.0;
-    if (volume == nullptr || scene.clouds.empty()) return;
-    const scene::Cloud& cloud = scene.clouds.front();
-    const Medium medium(*volume, cloud.extinction * cloud.densityScale);
-    if (medium.maximumDensity() * medium.extinctionScale() <= 0.0) return;
-    cloud_.emplace(Cloud{medium, MajorantGrid(medium, majorant), PhaseFunction(cloud.phase), cloud.albedo});
-    if (sunny_) aureole_ = Aureole::of(cloud_->phase, sunDirection_, radius);
-}
-
-std::optional<double> PathTracer::cloudCollision(const VoxelRay& ray, double limit, Random& random) const {
-    const std::optional<Interval> inside = clipped(cloud_->medium, ray, limit);
-    if (!inside) return std::nullopt;
-    bool collided = false;
-    double metres = 0.0;
-    cloud_->majorants.walk(ray, *inside, random, [&](double t, double majorant) {
-        const double extinction = cloud_->medium.extinctionScale() * cloud_->medium.density(ray.at(t));
-        collided = random.uniform() * majorant < extinction;
-        metres = t;
-        return collided;
-    });
-    return collided ? std::optional(metres) : std::nullopt;
+      inscattering_(scene.fog.inscattering) {
+    const PhaseFunction* phase = clouds_.narrowestPhase();
+    if (environment_.sunny() && phase != nullptr)
+        aureole_ = Aureole::of(*phase, environment_.sunDirection(), environment_.sunRadius());
 }
 
 PathTracer::Event PathTracer::nextEvent(const Vertex& vertex, const glm::dvec3& throughput, Random& random) const {
@@ -103,10 +58,8 @@ PathTracer::Event PathTracer::nextEvent(const Vertex& vertex, const glm::dvec3& 
             event = {Place::fog, collision->metres, collision->medium};
         }
     }
-    if (cloud_) {
-        if (const auto metres = cloudCollision(vertex.voxel, event.metres, random)) {
-            event = {Place::cloud, *metres, Surfaces::none};
-        }
+    if (const auto collision = clouds_.collide(vertex.voxels, event.metres, random)) {
+        event = {Place::cloud, collision->metres, collision->cloud};
     }
     return event;
 }
@@ -116,7 +69,7 @@ void PathTracer::arrive(Vertex& vertex, const Event& event) const {
     vertex.index = event.index;
     vertex.arrived = vertex.ray.direction;
     vertex.ray.origin += event.metres * vertex.ray.direction;
-    vertex.voxel.origin = vertex.voxel.at(event.metres);
+    clouds_.advance(vertex.voxels, event.metres);
     if (event.place == Place::surface) {
         vertex.normal = surfaces_.normalAgainst(vertex.ray.direction, vertex.ray.origin, event.index);
     }
@@ -139,16 +92,21 @@ double PathTracer::crossFog(const Vertex& vertex, const Event& event, glm::dvec3
 
 /// What is left after a collision with cloud or surface, and the share that this is of the brightest colour.
 double PathTracer::scatter(const Vertex& vertex, glm::dvec3& throughput) const {
-    const glm::dvec3& albedo = vertex.place == Place::surface ? surfaces_[vertex.index].albedo : cloud_->albedo;
+    const bool atSurface = vertex.place == Place::surface;
+    const glm::dvec3& albedo = atSurface ? surfaces_[vertex.index].albedo : clouds_.albedo(vertex.index);
     throughput *= albedo;
     return largest(albedo);
+}
+
+/// Of the cloud or the fog that the path has met.
+const PhaseFunction& PathTracer::phaseAt(const Vertex& vertex) const {
+    return vertex.place == Place::fog ? fog_.phase(vertex.index) : clouds_.phase(vertex.index);
 }
 
 /// Where the path goes on to by chance: drawn by the phase function, or the cosine of a diffuse surface.
 glm::dvec3 PathTracer::turn(const Vertex& vertex, Random& random) const {
     if (vertex.place == Place::surface) return turned(vertex.normal, 1.0 - std::sqrt(random.uniform()), random);
-    const PhaseFunction& phase = vertex.place == Place::fog ? fog_.phase(vertex.index) : cloud_->phase;
-    return turned(vertex.arrived, phase.sample(random), random);
+    return turned(vertex.arrived, phaseAt(vertex).sample(random), random);
 }
 
 /// Share of light that goes on along the path, 1/sr: a phase function, or cosine over π. It is also the density with
@@ -157,8 +115,7 @@ double PathTracer::response(const Vertex& vertex, const glm::dvec3& toLight) con
     if (vertex.place == Place::surface) {
         return std::max(0.0, glm::dot(vertex.normal, toLight)) * glm::one_over_pi<double>();
     }
-    const PhaseFunction& phase = vertex.place == Place::fog ? fog_.phase(vertex.index) : cloud_->phase;
-    return phase.evaluate(oneMinusCosBetween(vertex.arrived, toLight));
+    return phaseAt(vertex).evaluate(oneMinusCosBetween(vertex.arrived, toLight));
 }
 
 /// Paths that go on from the vertex into a direction, 1/sr: by chance, and as branches to the aureole.
@@ -177,14 +134,14 @@ bool PathTracer::head(Path& path, const glm::dvec3& direction, Random& random) c
             return false;
     }
     vertex.ray.direction = direction;
-    if (cloud_) vertex.voxel.step = cloud_->medium.stepOf(direction);
+    clouds_.turn(vertex.voxels, direction);
     return true;
 }
 
 /// Sends a branch of the path, which has scattered, to the aureole.
 void PathTracer::branch(const Path& path, std::vector<Path>& branches, Random& random) const {
     Path other = path;
-    if (head(other, aureole_->sample(random), random)) branches.push_back(other);
+    if (head(other, aureole_->sample(random), random)) branches.push_back(std::move(other));
 }
 
 /// What the surface gives off that a path from `vertex` meets by chance, less the share of `lampLight`.
@@ -207,10 +164,7 @@ glm::dvec3 PathTracer::lampLight(const Vertex& vertex, Random& random) const {
     const std::optional<SurfaceHit> hit = surfaces_.nearest(shadow, vertex.surface());
     if (!hit || hit->surface != lamp->surface) return glm::dvec3(0.0);
     double weight = chance / (density(vertex, lamp->direction) + lamp->density);
-    if (cloud_) {
-        const VoxelRay voxel{vertex.voxel.origin, cloud_->medium.stepOf(lamp->direction)};
-        weight = ratioTrack(cloud_->medium, cloud_->majorants, voxel, random, weight, 0.0, hit->metres);
-    }
+    weight = clouds_.passed(vertex.voxels, lamp->direction, random, weight, 0.0, hit->metres);
     glm::dvec3 light = weight * surfaces_[lamp->surface].emission;
     if (!fog_.empty()) light *= fog_.transmittance(shadow, hit->metres);
     return light;
@@ -219,18 +173,18 @@ glm::dvec3 PathTracer::lampLight(const Vertex& vertex, Random& random) const {
 /// What the sun's disc adds to a path from `vertex` that escapes into it by chance, less the share of
 /// `sunTransmission`.
 glm::dvec3 PathTracer::sunByChance(const Vertex& vertex) const {
-    const glm::dvec3 disc = discRadiance(vertex.ray.direction);
+    const glm::dvec3 disc = environment_.discRadiance(vertex.ray.origin, vertex.ray.direction);
     if (largest(disc) == 0.0) return disc;
-    const double expected = density(vertex, vertex.ray.direction) * glm::two_pi<double>() * sunCone_;
+    const double expected = density(vertex, vertex.ray.direction) * glm::two_pi<double>() * environment_.sunCone();
     return disc * (expected / (1.0 + expected));
 }
 
 /// Share of the sun's fluence that goes on along the path, 1/sr, by a shadow ray to a point of the disc: less the share
 /// of `sunByChance`. A point-like sun is met by no chance, and the shadow ray has all of it.
 glm::dvec3 PathTracer::sunTransmission(const Vertex& vertex, double strength, Random& random) const {
-    const double oneMinusCos = sunCone_ * random.uniform();
-    const glm::dvec3 toSun = sunCone_ > 0.0 ? turned(sunDirection_, oneMinusCos, random) : sunDirection_;
-    double weight = response(vertex, toSun) / (1.0 + density(vertex, toSun) * glm::two_pi<double>() * sunCone_);
+    const glm::dvec3 toSun = environment_.sampleSun(random);
+    const double expected = density(vertex, toSun) * glm::two_pi<double>() * environment_.sunCone();
+    double weight = response(vertex, toSun) / (1.0 + expected);
     const double threshold = shadowThreshold / strength;
     if (weight < threshold) {
         if (random.uniform() * threshold >= weight) return glm::dvec3(0.0);
@@ -238,12 +192,10 @@ glm::dvec3 PathTracer::sunTransmission(const Vertex& vertex, double strength, Ra
     }
     const Ray shadow{vertex.ray.origin, toSun};
     if (surfaces_.block(shadow, vertex.surface())) return glm::dvec3(0.0);
-    if (cloud_) {
-        const VoxelRay voxel{vertex.voxel.origin, cloud_->medium.stepOf(toSun)};
-        weight = ratioTrack(cloud_->medium, cloud_->majorants, voxel, random, weight, threshold);
-    }
-    if (fog_.empty()) return glm::dvec3(weight);
-    return weight * fog_.transmittance(shadow, std::numeric_limits<double>::infinity());
+    weight = clouds_.passed(vertex.voxels, toSun, random, weight, threshold);
+    const glm::dvec3 light = weight * environment_.sunTransmittance(vertex.ray.origin);
+    if (fog_.empty()) return light;
+    return light * fog_.transmittance(shadow, std::numeric_limits<double>::infinity());
 }
 
 /// To the next event and beyond it: light that is met there is added to the sample. False where the path ends.
@@ -253,9 +205,9 @@ bool PathTracer::step(Path& path, PathSample& sample, std::vector<Path>& branche
     double share = fog_.empty() ? 1.0 : crossFog(vertex, event, sample.radiance, throughput, random);
     if (event.place == Place::sky) {
         if (vertex.place == Place::eye) {
-            sample.passed = throughput;
+            sample.passed = throughput * environment_.relativeRadiance(vertex.ray.direction);
         } else if (isLit(vertex)) {
-            sample.radiance += throughput * (sky_ + sunByChance(vertex));
+            sample.radiance += throughput * (environment_.radiance(vertex.ray.direction) + sunByChance(vertex));
         }
         return false;
     }
@@ -263,8 +215,9 @@ bool PathTracer::step(Path& path, PathSample& sample, std::vector<Path>& branche
     arrive(vertex, event);
     if (event.place != Place::fog) share = scatter(vertex, throughput);
     if (!(largest(throughput) > 0.0)) return false;
-    if (sunny_ && isLit(vertex)) {
-        sample.radiance += throughput * sunFluence_ * sunTransmission(vertex, largest(throughput) / share, random);
+    if (environment_.sunny() && isLit(vertex)) {
+        sample.radiance +=
+            throughput * environment_.sunFluence() * sunTransmission(vertex, largest(throughput) / share, random);
     }
     if (!lamps_.empty()) sample.radiance += throughput * lampLight(vertex, random);
     if (aureole_) branch(path, branches, random);
@@ -276,13 +229,13 @@ PathSample PathTracer::trace(const Ray& ray, Random& random) const {
     PathSample sample;
     Path path;
     path.vertex.ray = ray;
-    if (cloud_) path.vertex.voxel = cloud_->medium.toVoxel(ray);
+    path.vertex.voxels = clouds_.raysOf(ray);
     std::vector<Path> branches;
     const int limit = fog_.empty() ? collisionLimit : fogCollisionLimit;
     for (int collisions = 0; collisions < limit; ++collisions) {
         if (step(path, sample, branches, random)) continue;
         if (branches.empty()) return sample;
-        path = branches.back();
+        path = std::move(branches.back());
         branches.pop_back();
     }
     sample.lost = true;
@@ -293,12 +246,9 @@ RayIntegrals PathTracer::integrate(const Ray& ray) const {
     constexpr double endless = std::numeric_limits<double>::infinity();
     RayIntegrals result;
     const auto hit = surfaces_.nearest(ray, Surfaces::none);
-    if (cloud_) {
-        const LineIntegrals line =
-            integrateAlong(cloud_->medium, cloud_->medium.toVoxel(ray), hit ? hit->metres : endless);
-        result.clear = line.transmittance;
-        result.distance = line.distance;
-    }
+    const LineIntegrals line = clouds_.integrate(ray, hit ? hit->metres : endless);
+    result.clear = line.transmittance;
+    result.distance = line.distance;
     if (hit) {
         result.distance += result.clear * hit->metres;
         result.clear = 0.0;
@@ -309,14 +259,9 @@ RayIntegrals PathTracer::integrate(const Ray& ray) const {
 }
 
 std::optional<double> PathTracer::front(const Ray& ray) const {
-    std::optional<double> metres;
-    if (cloud_) metres = frontAlong(cloud_->medium, cloud_->medium.toVoxel(ray));
+    const std::optional<double> metres = clouds_.front(ray);
     const auto hit = surfaces_.nearest(ray, Surfaces::none);
     return hit && !(metres && *metres < hit->metres) ? hit->metres : metres;
-}
-
-glm::dvec3 PathTracer::discRadiance(const glm::dvec3& direction) const {
-    return oneMinusCosBetween(direction, sunDirection_) < sunCone_ ? sunRadiance_ : glm::dvec3(0.0);
 }
 
 }  // namespace lumulus::reference

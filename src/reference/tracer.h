@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "reference/aureole.h"
+#include "reference/clouds.h"
+#include "reference/environment.h"
 #include "reference/fog.h"
 #include "reference/lamps.h"
-#include "reference/majorant.h"
-#include "reference/medium.h"
 #include "reference/phase.h"
 #include "reference/random.h"
 #include "reference/surfaces.h"
@@ -21,34 +21,28 @@ namespace lumulus::reference {
 /// One path from the eye.
 struct PathSample {
     glm::dvec3 radiance{0.0};  ///< of light from anything but the sky and sun directly behind, W·m⁻²·sr⁻¹
-    glm::dvec3 passed{0.0};    ///< weight of the sky directly behind: the path met nothing
+    glm::dvec3 passed{0.0};    ///< of the sky directly behind, where the path met nothing; in Environment::unit
     bool lost = false;         ///< ended by the limit of collisions
 };
 
-/// Transmittance of the medium along the ray, an unbiased estimate by ratio tracking (Novák et al. 2014): the weight,
-/// `weight` at the start, falls at each tentative collision by the share of null ones; below `threshold` Russian
-/// roulette lifts it back to the threshold or ends it at 0. Up to `limit` metres.
-double ratioTrack(const Medium& medium, const MajorantGrid& majorants, const VoxelRay& ray, Random& random,
-                  double weight, double threshold, double limit = std::numeric_limits<double>::infinity());
-
 /// What a ray meets, without noise.
 struct RayIntegrals {
-    glm::dvec3 transmittance{1.0};  ///< of everything: cloud, fog and surfaces
-    double clear = 1.0;             ///< transmittance of cloud and surfaces alone
-    double distance = 0.0;          ///< to cloud and surfaces: over 1 − clear, their mean distance. Metres
+    glm::dvec3 transmittance{1.0};  ///< of everything: clouds, fog and surfaces
+    double clear = 1.0;             ///< transmittance of clouds and surfaces alone
+    double distance = 0.0;          ///< to clouds and surfaces: over 1 − clear, their mean distance. Metres
 };
 
-/// The unbiased path tracer of one cloud, analytic fog and opaque surfaces under the sun and a constant sky: delta
-/// tracking in the cloud and exact free paths in the fog, whichever is nearer, next-event estimation to the sun's disc
-/// at each collision (ratio tracking through the cloud, closed form through the fog) and to spheres that give off
+/// The unbiased path tracer of clouds, analytic fog and opaque surfaces under the sun and the sky: delta
+/// tracking in the clouds and exact free paths in the fog, whichever is nearer, next-event estimation to the sun's disc
+/// at each collision (ratio tracking through the clouds, closed form through the fog) and to spheres that give off
 /// light, both weighted against meeting them by chance (Veach 1997, the balance heuristic), the sky where a path
 /// escapes, the emission of surfaces and fog where a path meets them, any number of scatterings. Immutable; any number
 /// of threads may trace.
 class PathTracer {
   public:
-    /// `volume` null: a scene without a cloud. `eye`: the fog ends at its `sky_distance` from there.
-    /// Errors: InputError for a phase function that is none.
-    PathTracer(const scene::Scene& scene, const vdb::Volume* volume, Majorant majorant,
+    /// `volumes`: one for each cloud of the scene, read here only. `eye`: the fog ends at its `sky_distance` from
+    /// there. Errors: InputError for a phase function that is none.
+    PathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
                const glm::dvec3& eye = glm::dvec3(0.0));
 
     PathSample trace(const Ray& ray, Random& random) const;
@@ -58,29 +52,19 @@ class PathTracer {
     /// Metres to the nearest point of the ray where there is cloud or a surface; absent where there is none.
     std::optional<double> front(const Ray& ray) const;
 
-    /// What the disc of the sun adds to a ray that meets nothing; 0 beside it.
-    glm::dvec3 discRadiance(const glm::dvec3& direction) const;
-
-    const glm::dvec3& sky() const { return sky_; }
+    const Environment& environment() const { return environment_; }
     bool hasFog() const { return !fog_.empty(); }
 
   private:
-    struct Cloud {
-        Medium medium;
-        MajorantGrid majorants;
-        PhaseFunction phase;
-        glm::dvec3 albedo;
-    };
-
     enum class Place { eye, cloud, fog, surface, sky };
 
     /// Where a path goes on from.
     struct Vertex {
         Place place = Place::eye;
-        std::size_t index = Surfaces::none;  ///< of the surface, or of the fog's medium
+        std::size_t index = Surfaces::none;  ///< of the surface, the cloud, or the fog's medium
         glm::dvec3 arrived{0.0};             ///< direction of the path up to here
         Ray ray;                             ///< from here on, in the world
-        VoxelRay voxel;                      ///< the same for the cloud, where there is one
+        CloudRays voxels;                    ///< the same for each cloud
         glm::dvec3 normal{0.0};              ///< of the surface, on the side that is lit
 
         std::size_t surface() const { return place == Place::surface ? index : Surfaces::none; }
@@ -100,11 +84,11 @@ class PathTracer {
     };
 
     Event nextEvent(const Vertex& vertex, const glm::dvec3& throughput, Random& random) const;
-    std::optional<double> cloudCollision(const VoxelRay& ray, double limit, Random& random) const;
     void arrive(Vertex& vertex, const Event& event) const;
     double crossFog(const Vertex& vertex, const Event& event, glm::dvec3& radiance, glm::dvec3& throughput,
                     Random& random) const;
     double scatter(const Vertex& vertex, glm::dvec3& throughput) const;
+    const PhaseFunction& phaseAt(const Vertex& vertex) const;
     glm::dvec3 turn(const Vertex& vertex, Random& random) const;
     double response(const Vertex& vertex, const glm::dvec3& toLight) const;
     double density(const Vertex& vertex, const glm::dvec3& direction) const;
@@ -117,18 +101,13 @@ class PathTracer {
     glm::dvec3 sunTransmission(const Vertex& vertex, double strength, Random& random) const;
     bool isLit(const Vertex& vertex) const { return vertex.place != Place::fog || inscattering_; }
 
-    std::optional<Cloud> cloud_;
+    Environment environment_;
+    Clouds clouds_;
     std::optional<Aureole> aureole_;
     Fog fog_;
     Surfaces surfaces_;
     Lamps lamps_;
     bool inscattering_;  ///< the fog scatters light that comes to it straight from sun and sky
-    glm::dvec3 sky_;
-    glm::dvec3 sunDirection_;
-    glm::dvec3 sunFluence_;  ///< ∫ L dω over the disc, W·m⁻²
-    glm::dvec3 sunRadiance_{0.0};
-    double sunCone_;  ///< 1 − cos of the disc's angular radius
-    bool sunny_;
 };
 
 }  // namespace lumulus::reference

@@ -155,7 +155,7 @@ class Scene(CliTest):
                 ("[[cloud]]\ntransform = [[1,0,0,0],[0,1,0,0],[0,0,0,0]]\n", "transform must be invertible"),
                 ("[camera]\nposition = [1,2,3]\ntarget = [1,2,3]\n", "same point"),
                 ("[image\n", "scene.toml:1"),
-                ("[[cloud]]\n[[cloud]]\n", "one cloud a scene"),
+                ("[[cloud]]\n" * 257, "at most 256 clouds, this one has 257"),
                 ("a = " + "[" * 100000, "scene.toml:1")):
             with self.subTest(text=text[:60]):
                 self.rejected_scene(self.scene(text), says=says)

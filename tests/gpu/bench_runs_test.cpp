@@ -16,7 +16,7 @@ namespace {
 
 LayeredImage traced(const scene::Scene& scene, std::uint64_t seed, std::uint64_t samples) {
     const CloudVolume cloud = loadCloudVolume(scene.clouds[0], scene.preparation.memoryBudget);
-    reference::Renderer tracer(scene, &cloud.volume, reference::Majorant::local, seed);
+    reference::Renderer tracer(scene, {cloud.volume}, reference::Majorant::local, seed);
     while (tracer.film().samples < samples) tracer.pass([](std::uint64_t) { return true; });
     return tracer.picture();
 }

@@ -74,22 +74,23 @@ struct Seen {
 };
 
 template <typename RayOf>
-Seen seenBy(const scene::Scene& scene, int samples, RayOf&& rayOf, const vdb::Volume* volume = nullptr) {
-    const PathTracer tracer(scene, volume, Majorant::local);
+Seen seenBy(const scene::Scene& scene, int samples, RayOf&& rayOf, const std::vector<vdb::PlacedVolume>& volumes = {}) {
+    const PathTracer tracer(scene, volumes, Majorant::local);
     Random random(11, 0, 0);
     Seen seen;
     for (int i = 0; i < samples; ++i) {
         const PathSample sample = tracer.trace(rayOf(random), random);
-        const dvec3 radiance = sample.radiance + sample.passed * tracer.sky();
+        const dvec3 radiance = sample.radiance + sample.passed * tracer.environment().unit();
         for (int c = 0; c < 3; ++c) seen.channel[c].add(radiance[c]);
         EXPECT_FALSE(sample.lost);
     }
     return seen;
 }
 
-Seen seen(const scene::Scene& scene, int samples, const Ray& ray = ahead, const vdb::Volume* volume = nullptr) {
+Seen seen(const scene::Scene& scene, int samples, const Ray& ray = ahead,
+          const std::vector<vdb::PlacedVolume>& volumes = {}) {
     return seenBy(
-        scene, samples, [&](Random&) { return ray; }, volume);
+        scene, samples, [&](Random&) { return ray; }, volumes);
 }
 
 /// An emissive wall behind fog that only absorbs, its depth by channel in closed form.
@@ -101,7 +102,7 @@ TEST(ReferenceFog, AnEmissiveWallFadesByBeerLambert) {
         scene.fog.media[0] = medium;
         scene.surfaces = {wall(distance, emission)};
         seen(scene, 40'000).expectNear(emission * glm::exp(-absorption * path), what);
-        const PathTracer tracer(scene, nullptr, Majorant::global);
+        const PathTracer tracer(scene, {}, Majorant::global);
         EXPECT_EQ(tracer.integrate(ahead).transmittance, dvec3(0.0));
         EXPECT_EQ(tracer.integrate(ahead).clear, 0.0);
         EXPECT_DOUBLE_EQ(tracer.integrate(ahead).distance, distance) << "fog has no depth";
@@ -127,7 +128,7 @@ TEST(ReferenceFog, MediaMultiplyTheirTransmittances) {
     const dvec3 depth = reach * scene.fog.media[0].absorption + 40.0 / 3.0 * scene.fog.media[1].absorption +
                         (std::exp(slope * reach) - 1.0) / slope * scene.fog.media[2].absorption;
     seen(scene, 40'000).expectNear(scene.sky.radiance * glm::exp(-depth), "the sky");
-    const PathTracer tracer(scene, nullptr, Majorant::global);
+    const PathTracer tracer(scene, {}, Majorant::global);
     EXPECT_NEAR(glm::distance(tracer.integrate(ahead).transmittance, glm::exp(-depth)), 0.0, 1e-9);
     EXPECT_EQ(tracer.integrate(ahead).clear, 1.0);
     EXPECT_FALSE(tracer.front(ahead));
@@ -146,7 +147,7 @@ TEST(ReferenceFog, WhiteFurnaceIsExact) {
     scene.clouds.resize(1);
     scene.clouds[0].extinction = 0.2;
     const vdb::Volume ball = ballVolume(16, 10.0);
-    const PathTracer tracer(scene, &ball, Majorant::local);
+    const PathTracer tracer(scene, {ball}, Majorant::local);
     Random random(12, 0, 0);
     int passed = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -228,7 +229,8 @@ TEST(ReferenceFog, ChannelsDoNotMix) {
 
 /// A white lamp of radius r gives π L 4π r² to what absorbs nothing, fog or cloud: as much leaves at any radius R
 /// around it, where the mean over the cosine is L r²/R².
-void expectLampsEnergy(scene::Scene scene, double lampRadius, double outside, const vdb::Volume* volume) {
+void expectLampsEnergy(scene::Scene scene, double lampRadius, double outside,
+                       const std::vector<vdb::PlacedVolume>& volumes) {
     scene.surfaces = {wall(0.0, dvec3(1.0))};
     scene.surfaces[0].kind = scene::SurfaceKind::sphere;
     scene.surfaces[0].radius = lampRadius;
@@ -238,14 +240,14 @@ void expectLampsEnergy(scene::Scene scene, double lampRadius, double outside, co
         return Ray{outside * outwards, turned(-outwards, 1.0 - std::sqrt(random.uniform()), random)};
     };
     const dvec3 expected(lampRadius * lampRadius / (outside * outside));
-    const Seen found = seenBy(scene, 100'000, enter, volume);
+    const Seen found = seenBy(scene, 100'000, enter, volumes);
     EXPECT_LT(found.channel[0].standardError(), 0.05 * expected.x);
     found.expectNear(expected, "lamp");
 }
 
 TEST(ReferenceFog, EnergyOfALampLeavesTheFog) {
     for (const double scattering : {0.002, 0.03}) {
-        expectLampsEnergy(fogScene(dvec3(scattering), dvec3(0.0), 0.6), 20.0, reach, nullptr);
+        expectLampsEnergy(fogScene(dvec3(scattering), dvec3(0.0), 0.6), 20.0, reach, {});
     }
 }
 
@@ -255,7 +257,7 @@ TEST(ReferenceFog, EnergyOfALampLeavesACloud) {
     scene.fog.skyDistance = 15.0;
     scene.clouds.resize(1);
     scene.clouds[0].extinction = 0.2;
-    expectLampsEnergy(scene, 4.0, 20.0, &ball);
+    expectLampsEnergy(scene, 4.0, 20.0, {ball});
 }
 
 /// Cloud and fog in one another: both only absorb, and their transmittances multiply.
@@ -267,19 +269,19 @@ TEST(ReferenceFog, CloudAndFogMix) {
     scene.sky.radiance = dvec3(1.0);
     const vdb::Volume ball = ballVolume(34, 10.0);
     const Ray ray{{0.0, 0.0, 50.0}, {0.0, 0.0, -1.0}};
-    const PathTracer tracer(scene, &ball, Majorant::global);
+    const PathTracer tracer(scene, {ball}, Majorant::global);
     const dvec3 fogAlone = glm::exp(-(reach + 50.0) * scene.fog.media[0].absorption);
     const RayIntegrals line = tracer.integrate(ray);
     EXPECT_NEAR(line.clear, std::exp(-1.0), 0.005);  // the voxels' stairs
     EXPECT_NEAR(glm::distance(line.transmittance, line.clear * fogAlone), 0.0, 1e-12);
-    seen(scene, 100'000, ray, &ball).expectNear(line.clear * fogAlone, "sky");
+    seen(scene, 100'000, ray, {ball}).expectNear(line.clear * fogAlone, "sky");
     // light that a cloud scatters through fog, and fog through a cloud: halves of one medium are the whole
     scene.clouds[0].extinction = 0.1;
     scene.clouds[0].albedo = dvec3(1.0);
     scene.clouds[0].phase.g = 0.5;
     scene.sun.irradiance = dvec3(2.0);
     scene.fog.media.clear();
-    const Seen whole = seen(scene, 60'000, ray, &ball);
+    const Seen whole = seen(scene, 60'000, ray, {ball});
     // a sphere of fog that is homogeneous but for its reach, as large as the cloud
     scene::Scene mixed = scene;
     mixed.clouds[0].extinction = 0.05;
@@ -287,7 +289,7 @@ TEST(ReferenceFog, CloudAndFogMix) {
     mixed.fog.media.resize(1);
     mixed.fog.media[0].scattering = dvec3(0.05);
     mixed.fog.media[0].g = 0.5;
-    const Seen halves = seen(mixed, 60'000, ray, &ball);
+    const Seen halves = seen(mixed, 60'000, ray, {ball});
     const double error = std::hypot(whole.channel[0].standardError(), halves.channel[0].standardError());
     EXPECT_LT(error, 0.02 * whole.channel[0].mean());
     EXPECT_NEAR(halves.channel[0].mean(), whole.channel[0].mean(), 4.0 * error + 0.01 * whole.channel[0].mean());
@@ -298,7 +300,7 @@ TEST(ReferenceFog, EndlessWhiteFogIsGivenUp) {
     scene::Scene scene = fogScene(dvec3(4.0), dvec3(0.0), 0.0);
     scene.fog.skyDistance = 1e5;
     scene.sky.radiance = dvec3(1.0);
-    const PathTracer tracer(scene, nullptr, Majorant::global);
+    const PathTracer tracer(scene, {}, Majorant::global);
     Random random(13, 0, 0);
     for (int i = 0; i < 3; ++i) {
         const PathSample sample = tracer.trace(ahead, random);
@@ -325,7 +327,7 @@ TEST(ReferenceFog, ExtremesStayFinite) {
                 scene.fog = {.skyDistance = 1e5, .media = {layer, ball}};
                 scene.sun.irradiance = dvec3(1e5);
                 scene.sky.radiance = dvec3(1.0);
-                const PathTracer tracer(scene, nullptr, Majorant::global, {0.0, 1e4, 0.0});
+                const PathTracer tracer(scene, {}, Majorant::global, {0.0, 1e4, 0.0});
                 for (const dvec3& direction : {dvec3(0.0, 1.0, 0.0), dvec3(0.0, -1.0, 0.0), dvec3(1.0, 0.0, 0.0)}) {
                     const Ray ray{{0.0, 1e4, 0.0}, direction};
                     const PathSample sample = tracer.trace(ray, random);

@@ -36,7 +36,7 @@ vdb::Volume ball() {
 
 LayeredImage rendered(const scene::Scene& scene, std::uint64_t seed, int passes) {
     const vdb::Volume volume = ball();
-    Renderer renderer(scene, &volume, Majorant::local, seed);
+    Renderer renderer(scene, {volume}, Majorant::local, seed);
     for (int i = 0; i < passes; ++i) renderer.pass(goOn);
     return renderer.picture();
 }
@@ -98,13 +98,13 @@ TEST(Reference, GoesOnWithTheSameBits) {
     const auto path = sumsBeside(folder / "ball.exr");
     EXPECT_EQ(path.filename(), "ball.exr.sums");
     {
-        Renderer first(scene, &volume, Majorant::global, 7);
+        Renderer first(scene, {volume}, Majorant::global, 7);
         for (int i = 0; i < 18; ++i) first.pass(goOn);
         writeFilm(path, first.film(), first.fingerprint());
     }
-    Renderer second(scene, &volume, Majorant::global, 7);
+    Renderer second(scene, {volume}, Majorant::global, 7);
     second.resume(readFilm(path, second.fingerprint()));
-    Renderer whole(scene, &volume, Majorant::global, 7);
+    Renderer whole(scene, {volume}, Majorant::global, 7);
     for (int i = 0; i < 5; ++i) second.pass(goOn);
     for (int i = 0; i < 23; ++i) whole.pass(goOn);
     EXPECT_EQ(second.film(), whole.film());
@@ -116,17 +116,17 @@ TEST(Reference, RefusesToGoOnFromSomethingElse) {
     const vdb::Volume volume = ball();
     const test::TemporaryFolder folder;
     const auto path = folder / "a.sums";
-    Renderer renderer(scene, &volume, Majorant::global, 7);
+    Renderer renderer(scene, {volume}, Majorant::global, 7);
     renderer.pass(goOn);
     const std::uint64_t print = renderer.fingerprint();
     EXPECT_THROW(readFilm(path, print), InputError);
     writeFilm(path, renderer.film(), print);
     EXPECT_EQ(readFilm(path, print), renderer.film());
 
-    EXPECT_NE(Renderer(scene, &volume, Majorant::global, 8).fingerprint(), print);
-    EXPECT_NE(Renderer(scene, &volume, Majorant::local, 7).fingerprint(), print);
+    EXPECT_NE(Renderer(scene, {volume}, Majorant::global, 8).fingerprint(), print);
+    EXPECT_NE(Renderer(scene, {volume}, Majorant::local, 7).fingerprint(), print);
     scene.clouds[0].albedo.z = 0.91;
-    EXPECT_THROW(readFilm(path, Renderer(scene, &volume, Majorant::global, 7).fingerprint()), InputError);
+    EXPECT_THROW(readFilm(path, Renderer(scene, {volume}, Majorant::global, 7).fingerprint()), InputError);
 
     const std::string whole = test::readAll(path);
     for (const std::size_t length : {std::size_t{0}, std::size_t{10}, std::size_t{100}, whole.size() - 1}) {
@@ -143,7 +143,7 @@ TEST(Reference, AStoppedPassLeavesTheFilm) {
     scene::Scene scene = ballScene();
     scene.image = {600, 200, 0.0};  // several bands
     const vdb::Volume volume = ball();
-    Renderer renderer(scene, &volume, Majorant::local, 1);
+    Renderer renderer(scene, {volume}, Majorant::local, 1);
     renderer.pass(goOn);
     const Film before = renderer.film();
     int calls = 0;
@@ -239,7 +239,7 @@ TEST(Reference, LayersOfFogAndSurfaces) {
     scene.fog.skyDistance = 50.0;
     scene.fog.media.resize(1);
     scene.fog.media[0].scattering = dvec3(0.01, 0.02, 0.03);
-    Renderer renderer(scene, nullptr, Majorant::global, 1);
+    Renderer renderer(scene, {}, Majorant::global, 1);
     for (int i = 0; i < 4; ++i) renderer.pass(goOn);
     const LayeredImage image = renderer.picture();
     const auto value = [&](const char* layer, int x, int y) {
@@ -261,7 +261,7 @@ TEST(Reference, LayersOfFogAndSurfaces) {
 TEST(Reference, FogAndSurfacesAreInTheFingerprint) {
     scene::Scene scene = ballScene();
     scene.clouds.clear();
-    const auto print = [&] { return Renderer(scene, nullptr, Majorant::global, 1).fingerprint(); };
+    const auto print = [&] { return Renderer(scene, {}, Majorant::global, 1).fingerprint(); };
     std::vector<std::uint64_t> prints{print()};
     const auto changed = [&](const char* what) {
         prints.push_back(print());
@@ -289,7 +289,7 @@ TEST(Reference, FogAndSurfacesAreInTheFingerprint) {
 TEST(Reference, WithoutACloudThereIsSky) {
     scene::Scene scene = ballScene();
     scene.clouds.clear();
-    Renderer renderer(scene, nullptr, Majorant::global, 1);
+    Renderer renderer(scene, {}, Majorant::global, 1);
     renderer.pass(goOn);
     const LayeredImage image = renderer.picture();
     for (const float value : image.layers.at("R")) EXPECT_EQ(value, static_cast<float>(scene.sky.radiance.x));

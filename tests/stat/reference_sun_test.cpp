@@ -72,7 +72,7 @@ class SunThroughABall : public testing::TestWithParam<Case> {};
 TEST_P(SunThroughABall, AgreesWithEscapesAlone) {
     const scene::Scene scene = ballScene(4.0, GetParam().g, GetParam().diameter);
     const vdb::Volume ball = ballVolume(18, ballRadius);
-    const PathTracer tracer(scene, &ball, Majorant::local);
+    const PathTracer tracer(scene, {ball}, Majorant::local);
     const Medium medium(ball, scene.clouds[0].extinction);
     const MajorantGrid majorants(medium, Majorant::local);
     Random random(21, 0, 0);

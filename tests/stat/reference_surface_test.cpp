@@ -26,13 +26,13 @@ scene::Scene emptyScene() {
 }
 
 dvec3 meanRadiance(const scene::Scene& scene, const Ray& ray, int samples, dvec3& error,
-                   const vdb::Volume* volume = nullptr) {
-    const PathTracer tracer(scene, volume, Majorant::local);
+                   const std::vector<vdb::PlacedVolume>& volumes = {}) {
+    const PathTracer tracer(scene, volumes, Majorant::local);
     Random random(21, 0, 0);
     RunningMean mean[3];
     for (int i = 0; i < samples; ++i) {
         const PathSample sample = tracer.trace(ray, random);
-        for (int c = 0; c < 3; ++c) mean[c].add(sample.radiance[c] + sample.passed[c] * tracer.sky()[c]);
+        for (int c = 0; c < 3; ++c) mean[c].add(sample.radiance[c] + sample.passed[c] * tracer.environment().unit()[c]);
     }
     error = {mean[0].standardError(), mean[1].standardError(), mean[2].standardError()};
     return {mean[0].mean(), mean[1].mean(), mean[2].mean()};
@@ -81,7 +81,7 @@ TEST(ReferenceSurface, ASunlitBallIsLambertWithAShadowBehind) {
     scene.surfaces.emplace_back();
     scene.surfaces[1].position = dvec3(0.0, -20.0, 0.0);
     const Ray toShadow{{-20.0, -10.0, 0.0}, {0.0, -1.0, 0.0}};
-    const PathTracer tracer(scene, nullptr, Majorant::global);
+    const PathTracer tracer(scene, {}, Majorant::global);
     Random random(22, 0, 0);
     RunningMean shadow;
     for (int i = 0; i < 4000; ++i) shadow.add(tracer.trace(toShadow, random).radiance.x);
@@ -149,13 +149,13 @@ TEST(ReferenceSurface, CloudsDimSurfacesAndAreHiddenByThem) {
     scene.clouds[0].albedo = dvec3(0.0);
     const vdb::Volume ball = ballVolume(34, 10.0);
     const Ray through{{0.0, 50.0, 0.0}, {0.0, -1.0, 0.0}};
-    const PathTracer tracer(scene, &ball, Majorant::local);
+    const PathTracer tracer(scene, {ball}, Majorant::local);
     scene::Scene bare = scene;
     bare.surfaces.clear();
-    const double clear = PathTracer(bare, &ball, Majorant::local).integrate(through).clear;
-    const double cloudDistance = PathTracer(bare, &ball, Majorant::local).integrate(through).distance;
+    const double clear = PathTracer(bare, {ball}, Majorant::local).integrate(through).clear;
+    const double cloudDistance = PathTracer(bare, {ball}, Majorant::local).integrate(through).distance;
     dvec3 error;
-    dvec3 found = meanRadiance(scene, through, 60'000, error, &ball);
+    dvec3 found = meanRadiance(scene, through, 60'000, error, {ball});
     expectNear(found, 2.0 * dvec3(clear), error);
     EXPECT_EQ(tracer.integrate(through).clear, 0.0);
     EXPECT_NEAR(tracer.integrate(through).distance, cloudDistance + clear * 70.0, 1e-9);
@@ -166,17 +166,17 @@ TEST(ReferenceSurface, CloudsDimSurfacesAndAreHiddenByThem) {
     scene.sun.angularDiameter = 0.0;
     scene.sun.directionTo = dvec3(0.0, 1.0, 0.0);
     const Ray beneath{{0.0, -15.0, 0.0}, {0.0, -1.0, 0.0}};
-    found = meanRadiance(scene, beneath, 60'000, error, &ball);
+    found = meanRadiance(scene, beneath, 60'000, error, {ball});
     expectNear(found, albedo / glm::pi<double>() * clear, error);
     // a plane above the cloud hides it
     scene.surfaces[0].position = dvec3(0.0, 30.0, 0.0);
-    const PathTracer hidden(scene, &ball, Majorant::local);
+    const PathTracer hidden(scene, {ball}, Majorant::local);
     EXPECT_DOUBLE_EQ(hidden.integrate(through).distance, 20.0);
     EXPECT_DOUBLE_EQ(hidden.front(through).value(), 20.0);
     EXPECT_EQ(hidden.integrate(through).clear, 0.0);
     // one that cuts it in halves leaves the upper one
     scene.surfaces[0].position = dvec3(0.0);
-    const PathTracer halved(scene, &ball, Majorant::local);
+    const PathTracer halved(scene, {ball}, Majorant::local);
     EXPECT_LT(halved.front(through).value(), 41.0);
     // ∫ t σ e^{−σ(t − 40)} dt over the half from 40 to 50 m, and the plane with what is left, e⁻¹; the voxels' stairs
     const double left = std::exp(-1.0);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -42,7 +43,8 @@ TEST(RatioTracking, AgreesWithQuadrature) {
                 const VoxelRay ray = medium.toVoxel(rayBeside(b));
                 RunningMean mean;
                 for (int i = 0; i < 100'000; ++i) mean.add(ratioTrack(medium, grid, ray, random, 1.0, threshold));
-                EXPECT_NEAR(mean.mean(), integrateAlong(medium, ray).transmittance, 4.0 * mean.standardError());
+                EXPECT_NEAR(mean.mean(), integrateAlong(std::array{opticalPieces(medium, ray)}).transmittance,
+                            4.0 * mean.standardError());
             }
         }
     }
@@ -54,7 +56,7 @@ TEST(PathTracer, AbsorbingBallIsAnalytic) {
     scene.clouds[0].albedo = dvec3(0.0);
     scene.sky.radiance = dvec3(1.0);
     const vdb::Volume ball = ballVolume(66, ballRadius);
-    const PathTracer tracer(scene, &ball, Majorant::local);
+    const PathTracer tracer(scene, {ball}, Majorant::local);
     Random random(2, 0, 0);
     for (const double b : {0.0, 3.0, 6.0, 9.0}) {
         RunningMean passed;
@@ -84,7 +86,7 @@ TEST(PathTracer, SingleScatteringAgreesWithQuadrature) {
     scene.sun.irradiance = dvec3(3.0);
     scene.sun.directionTo = glm::normalize(dvec3(1.0, 0.7, 0.4));
     const vdb::Volume ball = ballVolume(66, ballRadius);
-    const PathTracer tracer(scene, &ball, Majorant::local);
+    const PathTracer tracer(scene, {ball}, Majorant::local);
     const PhaseFunction phase(scene.clouds[0].phase);
     const double extinction = scene.clouds[0].extinction;
     Random random(3, 0, 0);
@@ -115,7 +117,7 @@ TEST(PathTracer, WideSunIsTheMeanOverItsDisc) {
     scene.sun.directionTo = glm::normalize(dvec3(0.2, 0.1, -1.0));
     scene.sun.angularDiameter = 40.0;
     const vdb::Volume ball = ballVolume(34, ballRadius);
-    const PathTracer wide(scene, &ball, Majorant::local);
+    const PathTracer wide(scene, {ball}, Majorant::local);
     Random random(4, 0, 0);
     RunningMean wideMean, discMean;
     for (int i = 0; i < 100'000; ++i) wideMean.add(wide.trace(rayBeside(2.0), random).radiance.z / faint);
@@ -126,7 +128,7 @@ TEST(PathTracer, WideSunIsTheMeanOverItsDisc) {
         narrow.sun.angularDiameter = 0.0;
         narrow.sun.irradiance = dvec3(2.0 / (1.0 + cosRadius));
         narrow.sun.directionTo = turned(scene.sun.directionTo, (1.0 - cosRadius) * (i + 0.5) / 200.0, random);
-        const PathTracer tracer(narrow, &ball, Majorant::local);
+        const PathTracer tracer(narrow, {ball}, Majorant::local);
         double sum = 0.0;
         for (int k = 0; k < 500; ++k) sum += tracer.trace(rayBeside(2.0), random).radiance.z / faint;
         discMean.add(sum / 500.0);
@@ -141,7 +143,7 @@ TEST(PathTracer, WhiteFurnaceIsExact) {
     for (const double tau : {2.0, 10.0, 50.0}) {
         scene::Scene scene = ballScene(tau, 0.85);
         scene.sky.radiance = dvec3(0.3, 1.0, 7.0);
-        const PathTracer tracer(scene, &ball, Majorant::local);
+        const PathTracer tracer(scene, {ball}, Majorant::local);
         Random random(5, 0, 0);
         int scattered = 0;
         for (int i = 0; i < 3000; ++i) {
@@ -160,9 +162,9 @@ TEST(PathTracer, RouletteIsUnbiased) {
     scene::Scene scene = ballScene(6.0, 0.5);
     scene.sky.radiance = dvec3(1.0);
     scene.clouds[0].albedo = dvec3(0.8);
-    const PathTracer alike(scene, &ball, Majorant::local);
+    const PathTracer alike(scene, {ball}, Majorant::local);
     scene.clouds[0].albedo = dvec3(1.0, 0.8, 0.3);  // no roulette: the weights carry the albedo
-    const PathTracer colours(scene, &ball, Majorant::local);
+    const PathTracer colours(scene, {ball}, Majorant::local);
     Random random(6, 0, 0);
     RunningMean roulette, weights;
     for (int i = 0; i < 200'000; ++i) {
@@ -180,9 +182,9 @@ TEST(PathTracer, DarkCloudsAreNotNoisy) {
     scene.sun.irradiance = dvec3(1.0);
     scene.sun.directionTo = glm::normalize(dvec3(0.3, 0.2, 1.0));
     scene.clouds[0].albedo = dvec3(0.1);
-    const PathTracer dark(scene, &ball, Majorant::local);
+    const PathTracer dark(scene, {ball}, Majorant::local);
     scene.clouds[0].albedo = dvec3(1.0, 0.1, 0.1);  // weights instead of a roulette
-    const PathTracer colours(scene, &ball, Majorant::local);
+    const PathTracer colours(scene, {ball}, Majorant::local);
     Random random(9, 0, 0);
     RunningMean roulette, weights, squares;
     for (int i = 0; i < 50'000; ++i) {
@@ -202,7 +204,7 @@ TEST(PathTracer, LocalMajorantsAgreeWithTheGlobalOne) {
     scene::Scene scene = ballScene(8.0, 0.7);
     scene.sun.irradiance = dvec3(2.0);
     scene.sky.radiance = dvec3(0.4);
-    const PathTracer global(scene, &ball, Majorant::global), local(scene, &ball, Majorant::local);
+    const PathTracer global(scene, {ball}, Majorant::global), local(scene, {ball}, Majorant::local);
     Random random(7, 0, 0);
     for (const double b : {-6.0, 0.0, 8.0}) {
         RunningMean a, c;
@@ -220,16 +222,17 @@ TEST(PathTracer, SunDiscCarriesTheIrradiance) {
     scene::Scene scene;
     scene.clouds.clear();
     scene.sun.angularDiameter = 2.0;
-    const PathTracer tracer(scene, nullptr, Majorant::global);
+    const PathTracer tracer(scene, {}, Majorant::global);
     const double sine = std::sin(glm::radians(1.0));
-    const dvec3 seen = tracer.discRadiance(scene.sun.directionTo) * glm::pi<double>() * sine * sine;
+    const dvec3 seen =
+        tracer.environment().discRadiance(dvec3(0.0), scene.sun.directionTo) * glm::pi<double>() * sine * sine;
     EXPECT_NEAR(glm::distance(seen, scene.sun.irradiance), 0.0, 1e-12);
     Random random(8, 0, 0);
     const auto tilted = [&](double degrees) {
         return turned(scene.sun.directionTo, 1.0 - std::cos(glm::radians(degrees)), random);
     };
-    EXPECT_GT(tracer.discRadiance(tilted(0.99)).x, 0.0);
-    EXPECT_EQ(tracer.discRadiance(tilted(1.01)).x, 0.0);
+    EXPECT_GT(tracer.environment().discRadiance(dvec3(0.0), tilted(0.99)).x, 0.0);
+    EXPECT_EQ(tracer.environment().discRadiance(dvec3(0.0), tilted(1.01)).x, 0.0);
     EXPECT_EQ(tracer.trace({}, random).passed, dvec3(1.0));
 }
 

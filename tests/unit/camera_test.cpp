@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -141,6 +142,28 @@ TEST(Bounds, AreThoseOfTheFilledVoxels) {
     double farthest = 0.0;
     for (const dvec3& corner : some.corners()) farthest = std::max(farthest, glm::distance(corner, some.centre));
     EXPECT_DOUBLE_EQ(some.radius(), farthest);
+}
+
+TEST(Bounds, UniteToABoxAlongTheAxes) {
+    Bounds one;
+    one.centre = dvec3(1.0, 2.0, 3.0);
+    one.halfAxes = glm::dmat3(0, 2, 0, 3, 0, 0, 1, 0, 4);
+    one.outline = {dvec3(1.0), dvec3(2.0)};
+    const Bounds same = unite(std::array{one});
+    EXPECT_EQ(same.centre, one.centre);
+    EXPECT_EQ(same.halfAxes, one.halfAxes);
+    EXPECT_EQ(same.outline, one.outline);
+    Bounds other;
+    other.centre = dvec3(100.0, 0.0, 0.0);
+    other.halfAxes = glm::dmat3(10.0);
+    const Bounds both = unite(std::array{one, other});
+    // the first reaches over 4, 2 and 4 m to each side of its middle
+    EXPECT_THAT(both.centre, IsNear(0.5 * (dvec3(-3, -10, -10) + dvec3(110, 10, 10)), 1e-12));
+    EXPECT_THAT(both.halfAxes[0], IsNear(dvec3(56.5, 0, 0), 1e-12));
+    EXPECT_THAT(both.halfAxes[1], IsNear(dvec3(0, 10, 0), 1e-12));
+    EXPECT_THAT(both.halfAxes[2], IsNear(dvec3(0, 0, 10), 1e-12));
+    EXPECT_EQ(both.outline.size(), 2U + 8U) << "the corners of what has no outline";
+    EXPECT_EQ(unite({}).halfAxes, Bounds{}.halfAxes);
 }
 
 /// In every direction the outline reaches as far as the cloud, and no farther than the bundles of four by four rows

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "reference/majorant.h"
@@ -112,11 +113,13 @@ TEST(LineIntegrals, OfABoxAreAnalytic) {
     // the trilinear field of a box keeps the mass of each row: n voxels are n metres
     const vdb::Volume volume = boxVolume({10, 20, 20});
     const Medium medium(volume, 0.2);
-    const LineIntegrals along = integrateAlong(medium, medium.toVoxel(Ray{{-5.0, 11.0, 11.0}, {1.0, 0.0, 0.0}}));
+    const LineIntegrals along =
+        integrateAlong(std::array{opticalPieces(medium, medium.toVoxel(Ray{{-5.0, 11.0, 11.0}, {1.0, 0.0, 0.0}}))});
     EXPECT_NEAR(along.transmittance, std::exp(-2.0), 1e-6);
     const glm::dvec3 slanted = glm::normalize(glm::dvec3(-2.0, 1.0, 0.3));
     const glm::dvec3 middle(6.0, 11.0, 11.0);
-    const LineIntegrals across = integrateAlong(medium, medium.toVoxel(Ray{middle - 15.0 * slanted, slanted}));
+    const LineIntegrals across =
+        integrateAlong(std::array{opticalPieces(medium, medium.toVoxel(Ray{middle - 15.0 * slanted, slanted}))});
     EXPECT_NEAR(across.transmittance, std::exp(-2.0 / std::abs(slanted.x)), 1e-6);
     // mean depth of the first collision in a homogeneous layer, six metres from the origin; the ramps of the field at
     // its faces move it by centimetres
@@ -130,9 +133,14 @@ TEST(LineIntegrals, OfABallAreAnalytic) {
     for (const double b : {0.0, 3.3, 6.1, 8.7}) {
         const Ray ray{{b * 0.6, b * 0.8, 40.0}, {0.0, 0.0, -1.0}};
         const double expected = std::exp(-2.0 * extinction * std::sqrt(radius * radius - b * b));
-        EXPECT_NEAR(integrateAlong(medium, medium.toVoxel(ray)).transmittance, expected, 0.003) << "at " << b;
+        EXPECT_NEAR(integrateAlong(std::array{opticalPieces(medium, medium.toVoxel(ray))}).transmittance, expected,
+                    0.003)
+            << "at " << b;
     }
-    EXPECT_EQ(integrateAlong(medium, medium.toVoxel(Ray{{0.0, 10.5, 40.0}, {0.0, 0.0, -1.0}})).transmittance, 1.0);
+    EXPECT_EQ(
+        integrateAlong(std::array{opticalPieces(medium, medium.toVoxel(Ray{{0.0, 10.5, 40.0}, {0.0, 0.0, -1.0}}))})
+            .transmittance,
+        1.0);
 }
 
 TEST(LineIntegrals, DoNotDependOnTheDirection) {
@@ -140,8 +148,10 @@ TEST(LineIntegrals, DoNotDependOnTheDirection) {
     const Medium medium(volume, 0.05);
     const glm::dvec3 centre = volume.toWorld.point(0.5 * glm::dvec3(volume.size));
     const glm::dvec3 direction = glm::normalize(glm::dvec3(0.4, -0.2, 0.7));
-    const auto there = integrateAlong(medium, medium.toVoxel(Ray{centre - 200.0 * direction, direction}));
-    const auto back = integrateAlong(medium, medium.toVoxel(Ray{centre + 200.0 * direction, -direction}));
+    const auto there =
+        integrateAlong(std::array{opticalPieces(medium, medium.toVoxel(Ray{centre - 200.0 * direction, direction}))});
+    const auto back =
+        integrateAlong(std::array{opticalPieces(medium, medium.toVoxel(Ray{centre + 200.0 * direction, -direction}))});
     EXPECT_LT(there.transmittance, 0.9);
     EXPECT_NEAR(there.transmittance, back.transmittance, 1e-7);
 }

@@ -7,6 +7,7 @@
 #include "support/rico.h"
 #include "unit/vdb_grids.h"
 #include "vdb/describe.h"
+#include "vdb/transform.h"
 #include "vdb/write.h"
 
 namespace lumulus::test {
@@ -73,12 +74,14 @@ TEST_F(Load, ShearAndScaleAreKept) {
 TEST_F(Load, TransformIsAppliedAfterTheGridsOwn) {
     const auto grid = makeBlob({0, 0, 0});
     grid->setTransform(openvdb::math::Transform::createLinearTransform(2.0));
-    vdb::LoadOptions options;
-    options.transform[0] = {0, 0, -1, 0};  // turn by a quarter about y, and move far away
-    options.transform[2] = {1, 0, 0, 0};
-    options.transform[3] = {1e7, 0.25, -1e7, 1};
-    const auto volume = loadGrid(grid, options).volume;
-    const glm::dvec3 moved = volume.toWorld.point({5.5, 4.5, 4.5});  // index (1, 0, 0), world (2, 0, 0)
+    glm::dmat4 transform(1.0);
+    transform[0] = {0, 0, -1, 0};  // turn by a quarter about y, and move far away
+    transform[2] = {1, 0, 0, 0};
+    transform[3] = {1e7, 0.25, -1e7, 1};
+    const auto loaded = loadGrid(grid);
+    const vdb::Affine placed = vdb::composeTransforms(transform, loaded.gridToWorld, "here");
+    const vdb::Affine toWorld = vdb::composed(placed, loaded.voxelToGrid);
+    const glm::dvec3 moved = toWorld.point({5.5, 4.5, 4.5});  // index (1, 0, 0), world (2, 0, 0)
     EXPECT_NEAR(glm::distance(moved, glm::dvec3(1e7, 0.25, -1e7 - 2.0)), 0.0, 1e-7);
 }
 
@@ -191,6 +194,7 @@ TEST_F(Load, BudgetCoarseningPreservesMassAndPlace) {
     EXPECT_NE(result.warnings[0].find("27x13x17"), std::string::npos) << result.warnings[0];
     EXPECT_NEAR(mass(result.volume), mass(fine), 1e-6 * mass(fine));
     EXPECT_TRUE(hasRing(result.volume));
+    EXPECT_DOUBLE_EQ(result.wantedMiB, 2.0 * 83 * 40 * 53 / kMiB);
     // the corner of what is not zero stays where it is
     EXPECT_NEAR(glm::distance(result.volume.toWorld.point(glm::dvec3(1)), fine.toWorld.point(glm::dvec3(1))), 0.0,
                 1e-12);

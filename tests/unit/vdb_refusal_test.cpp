@@ -5,6 +5,7 @@
 
 #include "unit/vdb_grids.h"
 #include "vdb/describe.h"
+#include "vdb/transform.h"
 
 namespace lumulus::test {
 namespace {
@@ -142,18 +143,25 @@ TEST_F(Refusal, Frustum) {
 }
 
 TEST_F(Refusal, TransformsWithoutVolume) {
-    const auto path = save({makeBlob({0, 0, 0})});
-    vdb::LoadOptions options;
-    options.transform[1] = {1.0, 1e-14, 0.0, 0.0};  // parallel to the first axis
-    EXPECT_THAT(refusal(path, options), HasSubstr("singular"));
-    options.transform = glm::dmat4(1e-7);  // small, but not flat
-    options.transform[3] = {0, 0, 0, 1};
-    EXPECT_EQ(refusal(path, options), "");
-    options.transform[3][3] = 2.0;
-    EXPECT_THAT(refusal(path, options), HasSubstr("not affine"));
-    options.transform = glm::dmat4(1.0);
-    options.transform[3][0] = std::numeric_limits<double>::infinity();
-    EXPECT_THAT(refusal(path, options), HasSubstr("not finite"));
+    const auto refused = [](const glm::dmat4& transform) -> std::string {
+        try {
+            vdb::composeTransforms(transform, vdb::Affine{}, "here");
+        } catch (const InputError& e) {
+            return e.what();
+        }
+        return "";
+    };
+    glm::dmat4 transform(1.0);
+    transform[1] = {1.0, 1e-14, 0.0, 0.0};  // parallel to the first axis
+    EXPECT_THAT(refused(transform), HasSubstr("singular"));
+    transform = glm::dmat4(1e-7);  // small, but not flat
+    transform[3] = {0, 0, 0, 1};
+    EXPECT_EQ(refused(transform), "");
+    transform[3][3] = 2.0;
+    EXPECT_THAT(refused(transform), HasSubstr("not affine"));
+    transform = glm::dmat4(1.0);
+    transform[3][0] = std::numeric_limits<double>::infinity();
+    EXPECT_THAT(refused(transform), HasSubstr("not finite"));
 }
 
 TEST_F(Refusal, BudgetBelowOneVoxel) {
