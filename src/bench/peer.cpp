@@ -33,7 +33,7 @@ class Line {
     Line(std::string_view text, std::string where) : fields_(split(text, ',')), where_(std::move(where)) {}
 
     [[noreturn]] void refuse(const std::string& what) const {
-        throw InputError(what, where_, "give the table that scripts/compare-blender.sh makes");
+        throw InputError(what, where_, "give the table of scripts/study/run cycles");
     }
 
     Row row() const {
@@ -79,7 +79,7 @@ std::vector<Row> parsePeer(std::string_view text, const std::string& source) {
 
 std::vector<Row> readPeer(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
-    if (!file) throw InputError("no such file, or not to be read", path.string(), "give a table (.csv)");
+    if (!file) throw InputError("cannot read the file", path.string(), "give a table (.csv)");
     return parsePeer(std::string(std::istreambuf_iterator<char>(file), {}), path.string());
 }
 

@@ -8,11 +8,11 @@
 
 namespace lumulus::bench {
 
-/// Rows of another renderer from a table with the columns of error.csv, each row's method "Cycles"
-/// (scripts/compare-blender.sh makes it). Errors: InputError that names the file and line.
+/// Reads the rows of another renderer from a table with the columns of error.csv. The method of each row is "Cycles"
+/// (`scripts/study/run cycles` makes the table). Errors: InputError that names the file and line.
 std::vector<Row> readPeer(const std::filesystem::path& path);
 
-/// The same for text.
+/// Reads such rows from text; `source` stands for the file in messages.
 std::vector<Row> parsePeer(std::string_view text, const std::string& source);
 
 }  // namespace lumulus::bench

@@ -7,10 +7,10 @@
 
 namespace lumulus::phase {
 
-/// All that the GPU needs for one phase function, cut angle θc and albedo; shared/phase_table.h has the axes.
+/// All tables that the GPU needs for one phase function, cut angle θc and albedo; shared/phase_table.h has their axes.
 struct ScatteringTables {
     float forwardFraction = 0.0F;  ///< f = P(θ < θc)
-    float turnFraction = 1.0F;     ///< 1 − f, with its own digits
+    float turnFraction = 1.0F;     ///< 1 − f without cancellation
     /// χ'_l = b_l/(1−f), l = 0..bands−1: the moments of p restricted to θ ≥ θc.
     std::vector<float> bandMoments;
 
@@ -26,7 +26,7 @@ struct ScatteringTables {
     /// tableCell(angleToAxis(angle, angleScale), phaseTableSize).
     std::vector<float> phaseTable;
 
-    /// The smooth parts of the sun's light with one turn (one_turn.h), divided by exp(−oneTurnDecay·τ), RGB,
+    /// The smooth parts of the single scattering of sunlight (one_turn.h), divided by exp(−oneTurnDecay·τ), RGB,
     /// oneTurnAngleCount × oneTurnTauCount; both empty (H = K = 0) where θc = 0.
     std::vector<float> oneTurnH;   ///< of (τs, θ); the whole term carries e^−τv
     std::vector<float> oneTurnK;   ///< of (τs + τv, θ)

@@ -6,9 +6,9 @@
 
 namespace lumulus::progressive {
 
-/// relMSE that is no noise, from truncated harmonics, the cut forward peak and the resolution of collectors and light
-/// field, which are finer where there are more `photons`: the sum of the largest that were measured over cumulus scenes
-/// (docs/error-time.md, by scripts/bias_table.py). Thin clouds have less.
+/// Estimates the relMSE that more photons do not lower: truncated harmonics, the forward cut, and the resolution of
+/// collectors and light field, which is finer with more `photons`. It is the sum of the largest values measured over
+/// cumulus scenes (docs/experiments/stated-bias.md). Thin clouds have less.
 double biasEstimate(const scene::Scene& scene, std::uint64_t photons);
 
 }  // namespace lumulus::progressive

@@ -10,7 +10,7 @@
 
 namespace lumulus::reference {
 
-/// A ray in voxel coordinates; `step` is the way of one metre in the world.
+/// A ray in voxel coordinates; `step` is the distance that corresponds to one metre in the world.
 struct VoxelRay {
     glm::dvec3 origin{0.0};
     glm::dvec3 step{0.0};
@@ -24,8 +24,8 @@ struct Interval {
     double end = 0.0;
 };
 
-/// The density field as the reference reads it: the voxels' own floats, trilinear between voxel centres, zero outside
-/// the box. Voxel coordinates are those of vdb::Volume.
+/// The density field of the reference: the floats of the voxels, trilinear between voxel centres, zero outside of the
+/// box. Voxel coordinates are those of vdb::Volume.
 class Medium {
   public:
     /// `extinction` [1/m] at density 1.
@@ -43,11 +43,11 @@ class Medium {
     double density(const glm::dvec3& p) const;
 
     glm::dvec3 toVoxel(const glm::dvec3& world) const { return toVoxel_ * (world - translation_); }
-    /// The way of a unit vector of the world.
+    /// A vector of the world in voxel coordinates.
     glm::dvec3 stepOf(const glm::dvec3& direction) const { return toVoxel_ * direction; }
     VoxelRay toVoxel(const Ray& ray) const { return {toVoxel(ray.origin), stepOf(ray.direction)}; }
 
-    /// The part of the ray within the box, from metre 0 on; absent where it misses.
+    /// The part of the ray within the box, from metre 0 on; absent if the ray misses the box.
     std::optional<Interval> clip(const VoxelRay& ray) const;
 
   private:
@@ -84,19 +84,19 @@ inline double Medium::density(const glm::dvec3& p) const {
     return static_cast<double>(near + fz * (far - near));
 }
 
-/// What a ray meets in the whole medium.
+/// Integrals along a ray through the whole medium.
 struct LineIntegrals {
     double transmittance = 1.0;
     double distance = 0.0;  ///< ∫ t T σt dt, metres from the ray's origin: over 1 − T, the mean distance
 };
 
-/// Integrals along the ray without noise: between voxel centres the trilinear density is a cubic polynomial in t, which
-/// Gauss's two points integrate exactly; the distance takes σt as constant within each such piece. Up to `limit`
-/// metres.
+/// Computes integrals along the ray up to `limit` metres, without noise. Between voxel centres the trilinear density is
+/// a cubic polynomial in t, which the two-point Gauss rule integrates exactly. The distance takes σt as constant within
+/// each such piece.
 LineIntegrals integrateAlong(const Medium& medium, const VoxelRay& ray,
                              double limit = std::numeric_limits<double>::infinity());
 
-/// Metres from the ray's origin to where it first meets a density above 0; absent where it meets none.
+/// Metres from the ray's origin to the first point with density; absent if there is none.
 std::optional<double> frontAlong(const Medium& medium, const VoxelRay& ray);
 
 }  // namespace lumulus::reference

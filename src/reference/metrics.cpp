@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<const char*, 3> channels{"R", "G", "B"};
 constexpr double relativeFloor = 0.01;  ///< of mean(R)², and of mean(R) for MAPE
 
-/// A layer's value as double, or what stands for it where there is no such layer.
+/// A layer's values as double, or a constant if there is no such layer.
 class Layer {
   public:
     Layer(const LayeredImage& image, const std::string& name) {
@@ -41,7 +41,7 @@ struct Channel {
         : radiance(image, name), variance(image, "variance." + name) {}
 };
 
-/// The pixels that count, by the reference's own layers.
+/// The pixels that are compared, chosen by the reference's layers.
 std::vector<std::size_t> comparedPixels(const LayeredImage& reference) {
     const Layer red(reference, "transmittance.R"), green(reference, "transmittance.G"),
         blue(reference, "transmittance.B");
@@ -113,7 +113,7 @@ struct Point {
     }
 };
 
-/// Against a black reference nothing is 0 and everything else infinite.
+/// A relative value. With a black reference it is 0 for no difference and infinite for any other.
 double ratio(double value, double scale) {
     return value == 0.0 ? 0.0 : value / scale;
 }
@@ -184,7 +184,7 @@ Comparison compareAll(const LayeredImage& image, const LayeredImage& a, const La
     return result;
 }
 
-/// Refuses what arithmetic would spread over the whole result.
+/// Refuses NaN and infinity, which would spread over the whole result.
 void requireNumbers(const NamedImage& named) {
     std::vector<std::string> used{"sun.disc"};
     for (const char* channel : channels) {

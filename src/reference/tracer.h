@@ -20,34 +20,34 @@ namespace lumulus::reference {
 
 /// One path from the eye.
 struct PathSample {
-    glm::dvec3 radiance{0.0};  ///< of light from anything but the sky and sun directly behind, W·m⁻²·sr⁻¹
+    glm::dvec3 radiance{0.0};  ///< of all light except the sky and sun directly behind, W·m⁻²·sr⁻¹
     glm::dvec3 passed{0.0};    ///< weight of the sky directly behind: the path met nothing
     bool lost = false;         ///< ended by the limit of collisions
 };
 
-/// Transmittance of the medium along the ray, an unbiased estimate by ratio tracking (Novák et al. 2014): the weight,
-/// `weight` at the start, falls at each tentative collision by the share of null ones; below `threshold` Russian
-/// roulette lifts it back to the threshold or ends it at 0. Up to `limit` metres.
+/// Estimates the transmittance of the medium along the ray up to `limit` metres without bias, by ratio tracking (Novák
+/// et al. 2014). The weight starts at `weight` and falls at each tentative collision by the share of null collisions.
+/// Below `threshold` Russian roulette raises it to the threshold or ends it at 0.
 double ratioTrack(const Medium& medium, const MajorantGrid& majorants, const VoxelRay& ray, Random& random,
                   double weight, double threshold, double limit = std::numeric_limits<double>::infinity());
 
-/// What a ray meets, without noise.
+/// Integrals along a ray, without noise.
 struct RayIntegrals {
     glm::dvec3 transmittance{1.0};  ///< of everything: cloud, fog and surfaces
     double clear = 1.0;             ///< transmittance of cloud and surfaces alone
     double distance = 0.0;          ///< to cloud and surfaces: over 1 − clear, their mean distance. Metres
 };
 
-/// The unbiased path tracer of one cloud, analytic fog and opaque surfaces under the sun and a constant sky: delta
-/// tracking in the cloud and exact free paths in the fog, whichever is nearer, next-event estimation to the sun's disc
-/// at each collision (ratio tracking through the cloud, closed form through the fog) and to spheres that give off
-/// light, both weighted against meeting them by chance (Veach 1997, the balance heuristic), the sky where a path
-/// escapes, the emission of surfaces and fog where a path meets them, any number of scatterings. Immutable; any number
-/// of threads may trace.
+/// The unbiased path tracer of one cloud, analytic fog and opaque surfaces under the sun and a constant sky. Free paths
+/// come from delta tracking in the cloud and from closed forms in the fog; the nearer one counts. Each collision has
+/// next-event estimation to the sun's disc (ratio tracking through the cloud, closed form through the fog) and to
+/// emitting spheres, both weighted by the balance heuristic against meeting them by chance (Veach 1997). A path that
+/// escapes adds the sky, and one that meets surfaces or fog adds their emission. The number of scattering events is not
+/// limited. Immutable; any number of threads may trace.
 class PathTracer {
   public:
-    /// `volume` null: a scene without a cloud. `eye`: the fog ends at its `sky_distance` from there.
-    /// Errors: InputError for a phase function that is none.
+    /// A null `volume` means a scene without a cloud. The fog ends at its `sky_distance` from `eye`.
+    /// Errors: InputError for an invalid phase function.
     PathTracer(const scene::Scene& scene, const vdb::Volume* volume, Majorant majorant,
                const glm::dvec3& eye = glm::dvec3(0.0));
 
@@ -55,10 +55,10 @@ class PathTracer {
 
     RayIntegrals integrate(const Ray& ray) const;
 
-    /// Metres to the nearest point of the ray where there is cloud or a surface; absent where there is none.
+    /// Metres to the nearest point of cloud or surface on the ray; absent if there is none.
     std::optional<double> front(const Ray& ray) const;
 
-    /// What the disc of the sun adds to a ray that meets nothing; 0 beside it.
+    /// Radiance of the sun's disc in a direction; 0 beside the disc.
     glm::dvec3 discRadiance(const glm::dvec3& direction) const;
 
     const glm::dvec3& sky() const { return sky_; }
@@ -74,25 +74,25 @@ class PathTracer {
 
     enum class Place { eye, cloud, fog, surface, sky };
 
-    /// Where a path goes on from.
+    /// A point from which a path goes on.
     struct Vertex {
         Place place = Place::eye;
-        std::size_t index = Surfaces::none;  ///< of the surface, or of the fog's medium
+        std::size_t index = Surfaces::none;  ///< index of the surface or of the fog's medium
         glm::dvec3 arrived{0.0};             ///< direction of the path up to here
         Ray ray;                             ///< from here on, in the world
-        VoxelRay voxel;                      ///< the same for the cloud, where there is one
+        VoxelRay voxel;                      ///< the same ray in voxel coordinates of the cloud, if there is one
         glm::dvec3 normal{0.0};              ///< of the surface, on the side that is lit
 
         std::size_t surface() const { return place == Place::surface ? index : Surfaces::none; }
     };
 
-    /// A path on its way.
+    /// An unfinished path.
     struct Path {
         Vertex vertex;
         glm::dvec3 throughput{1.0};
     };
 
-    /// What a path meets next; infinitely far where that is the sky.
+    /// The next event of a path; infinitely far if that is the sky.
     struct Event {
         Place place = Place::sky;
         double metres = std::numeric_limits<double>::infinity();
@@ -122,7 +122,7 @@ class PathTracer {
     Fog fog_;
     Surfaces surfaces_;
     Lamps lamps_;
-    bool inscattering_;  ///< the fog scatters light that comes to it straight from sun and sky
+    bool inscattering_;  ///< the fog scatters light straight from sun and sky
     glm::dvec3 sky_;
     glm::dvec3 sunDirection_;
     glm::dvec3 sunFluence_;  ///< ∫ L dω over the disc, W·m⁻²

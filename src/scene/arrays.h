@@ -7,12 +7,12 @@
 
 namespace lumulus::scene {
 
-/// A section that stands in two brackets, once for each entry.
+/// A section in two brackets that may be repeated, once for each entry.
 struct ArraySection {
     std::string_view name;   ///< "fog.media", as in the names of keys
-    std::string_view entry;  ///< what one entry is called in messages
-    std::size_t most;        ///< entries of a scene
-    std::string_view limit;  ///< what is said of one entry more
+    std::string_view entry;  ///< name of one entry in messages
+    std::size_t most;        ///< largest number of entries
+    std::string_view limit;  ///< error message for one entry too many
 };
 
 inline constexpr std::array<ArraySection, 3> arraySections{{

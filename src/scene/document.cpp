@@ -23,17 +23,17 @@ may stand for a whole number. NaN and infinity are refused everywhere.
 
 - Units: metres, degrees, W/m² and W/(m² sr) per channel of linear Rec. 709. Right-handed, +Y is up.
 - Paths are relative to the scene file.
-- `[[cloud]]` stands in two brackets. This version renders one cloud; `cloud = []` is a scene without any.
-- `[[fog.media]]` stands once for each medium; without one there is no fog. Keys that a medium's kind does not have are
-  errors.
-- `[[surface]]` stands once for each opaque surface, for `lumulus reference` only: `render` refuses them.
-- `--set section.key=value` overrides a key, `--set cloud.0.extinction=0.2` one of the cloud,
-  `--set fog.media.0.visibility=500` one of the first medium. The value is TOML, or
-  else a bare string: `--set draw.mode=march`. An override of one of two keys that exclude each other (`sun.azimuth`,
-  `sun.direction_to`; `cloud.0.vdb`, `cloud.0.procedural`) takes the file's other one out; one of
-  `cloud.0.phase.model` or of the `kind` of a medium or surface takes out the parameters that it does not
-  have.
-- `--quality` stands below the file: it changes only what the scene leaves out.
+- `[[cloud]]` stands in two brackets. This version renders one cloud; `cloud = []` is a scene without a cloud.
+- `[[fog.media]]` is repeated for each medium. A scene without it has no fog. Keys that a medium's kind does not have
+  are errors.
+- `[[surface]]` is repeated for each opaque surface, for `lumulus reference` only: `render` refuses surfaces.
+- `--set section.key=value` overrides a key: `--set cloud.0.extinction=0.2` one of the cloud,
+  `--set fog.media.0.visibility=500` one of the first medium. The value is TOML, or else a bare string:
+  `--set draw.mode=march`.
+- An override of one of two keys that exclude each other (`sun.azimuth`, `sun.direction_to`; `cloud.0.vdb`,
+  `cloud.0.procedural`) removes the file's other key. An override of `cloud.0.phase.model`, or of the `kind` of a medium
+  or surface, removes the parameters that the new model or kind does not have.
+- `--quality` changes only keys that the scene leaves out.
 )";
 
 std::string qualityTable() {
