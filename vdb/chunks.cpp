@@ -23,8 +23,8 @@ namespace {
     OPENVDB_THROW(openvdb::RuntimeError, "a chunk of values does not have the length of its node");
 }
 
-/// A chunk: its length, negative where it is not packed, and as many bytes. `unpack(packed, length)` tells whether it
-/// filled the `bytes` of `to`. Without `to` the chunk is skipped.
+/// Reads a chunk: its length (negative if it is not packed) and that many bytes. `unpack(packed, length)` returns true
+/// if it filled the `bytes` of `to`. Without `to` the chunk is skipped.
 template <typename Unpack>
 void readChunk(std::istream& in, char* to, std::size_t bytes, const Unpack& unpack) {
     std::int64_t stored = 0;
@@ -39,7 +39,7 @@ void readChunk(std::istream& in, char* to, std::size_t bytes, const Unpack& unpa
     } else {
         const auto chunk = std::make_unique_for_overwrite<char[]>(length);
         in.read(chunk.get(), static_cast<std::streamsize>(length));
-        // what a packer makes of nothing differs from version to version
+        // versions of the packers differ in how they pack nothing
         if (bytes > 0 && !unpack(chunk.get(), length)) refuseChunk();
     }
 }

@@ -39,7 +39,7 @@ class Cumulus {
     }
 
   private:
-    /// The points of a slice in the space of the puffs, bent so that no sphere looks like one.
+    /// The points of a slice in the space of the puffs, warped so that no sphere is visible as such.
     std::vector<glm::vec3> warpSlice(int z) const {
         constexpr float bend = 24.0F;
         constexpr float size = 80.0F;
@@ -56,7 +56,7 @@ class Cumulus {
         return points;
     }
 
-    /// Signed distance to the union of the puffs, right where it is below kRoughness, else at least that.
+    /// Signed distance to the union of the puffs: exact below kRoughness, elsewhere at least that large.
     std::vector<float> slicePuffs(const std::vector<glm::vec3>& warped, int z) const {
         constexpr float reach = 2.0F * kRoughness + 18.0F;  // the warp moves points by at most 24·3/4 m
         std::vector<float> distance(warped.size(), kRoughness);

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
     throw InputError(what, path.string(), mend);
 }
 
-/// A file whose reading Ctrl-C ends: OpenVDB has no other place for that.
+/// A file whose reading Ctrl-C can end; OpenVDB has no other way to stop.
 class InterruptibleFile : public std::filebuf {
   public:
     explicit InterruptibleFile(const fs::path& path) { open(path, std::ios::in | std::ios::binary); }
@@ -36,7 +36,7 @@ class InterruptibleFile : public std::filebuf {
     }
 };
 
-/// Sorts out what is no OpenVDB file at all, before OpenVDB sees it.
+/// Refuses a file that is no OpenVDB file before OpenVDB reads it.
 void checkStart(const fs::path& path) {
     constexpr std::array<char, 8> magic{' ', 'B', 'D', 'V', 0, 0, 0, 0};
     std::error_code ec;
@@ -75,7 +75,7 @@ openvdb::GridPtrVec readGrids(const fs::path& path) {
     checkStart(path);
     InterruptibleFile file(path);
     std::istream in(&file);
-    // io::File reads truncated files without a word; a stream that throws does not. The flags say why it threw.
+    // io::File reads truncated files without an error; a stream that throws does not. The flags tell why it threw.
     bool ended = false;
     try {
         in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);

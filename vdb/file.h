@@ -7,11 +7,11 @@
 /// Reading an OpenVDB file safely (inside vdb/ only: the header costs seconds).
 namespace lumulus::vdb {
 
-/// All grids of a file, their values in memory. Throws InputError for whatever is wrong with the file, Error
-/// where interrupted.
+/// Reads all grids of a file with their values. Throws InputError for a missing, damaged or foreign file, Error if
+/// interrupted.
 openvdb::GridPtrVec readGrids(const std::filesystem::path& path);
 
-/// "float", "half", "double", "vec3s", … ("half": floats that are saved as half).
+/// Type of a grid's values: "float", "half" (floats that are saved as half), "double", "vec3s", …
 std::string valueType(const openvdb::GridBase& grid);
 
 }  // namespace lumulus::vdb

@@ -13,7 +13,7 @@ const std::map<std::string, std::uint32_t> kNumberBytes{
     {"bool", 1},   {"int32", 4},  {"int64", 8},  {"float", 4},  {"double", 8}, {"vec2i", 8},  {"vec2s", 8},
     {"vec2d", 16}, {"vec3i", 12}, {"vec3s", 12}, {"vec3d", 24}, {"mat4s", 64}, {"mat4d", 128}};
 
-/// Walks over a file and notes whether that would have led past its end.
+/// Walks over a file and notes if a length led past the end of the file.
 class Walk {
   public:
     explicit Walk(const std::filesystem::path& path)
@@ -39,7 +39,7 @@ class Walk {
 
     void bytes(std::int64_t count) { moveTo(position_ + count); }
 
-    /// A 32-bit length and as many bytes. Returns them where they are few, as the names of types are.
+    /// Reads a 32-bit length and that many bytes. Returns the bytes if they are few, like the names of types.
     std::string sized() {
         constexpr std::uint32_t longest = 16;
         const auto length = number<std::uint32_t>();
@@ -54,7 +54,7 @@ class Walk {
         return text;
     }
 
-    /// Name, type and value of each entry. OpenVDB reads numbers by their own size and not by the one in the file.
+    /// Walks over name, type and value of each entry. OpenVDB reads numbers by their own size, not by the file's.
     void metadata() {
         const auto entries = number<std::int32_t>();
         for (std::int32_t i = 0; i < entries && within_; ++i) {

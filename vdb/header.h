@@ -4,10 +4,9 @@
 
 namespace lumulus::vdb {
 
-/// Whether all lengths of names and metadata in an OpenVDB file's header stay within the file. OpenVDB itself fills
-/// memory for any length that it reads (up to 4 GiB) before it finds out that the file has no such bytes. Only the head
-/// of the first grid is checked where the file does not say where its grids end, and nothing in formats before 222
-/// (2014).
+/// True if all lengths of names and metadata in an OpenVDB file's header stay within the file. OpenVDB itself fills
+/// memory for any length that it reads (up to 4 GiB) before it notices that the file is shorter. In a file that does
+/// not tell where its grids end only the head of the first grid is checked, and nothing in formats before 222 (2014).
 bool headerLengthsFit(const std::filesystem::path& path);
 
 }  // namespace lumulus::vdb

@@ -56,7 +56,8 @@ const openvdb::GridBase& chooseGrid(const openvdb::GridPtrVec& grids, const std:
     return grid;
 }
 
-/// Index coordinates → metres. The map is asked for vectors, not for its matrix: it has no one convention for that.
+/// The transform from index coordinates to metres. It is taken from mapped vectors, since the conventions of OpenVDB's
+/// matrices differ between maps.
 Affine gridTransform(const openvdb::GridBase& grid, const fs::path& path) {
     if (!grid.transform().isLinear()) {
         throw InputError(fmt::format("grid \"{}\" has a frustum transform", grid.getName()), path.string(),
@@ -75,7 +76,7 @@ IndexBox toBox(const openvdb::CoordBBox& box) {
     return {{box.min().x(), box.min().y(), box.min().z()}, {box.max().x(), box.max().y(), box.max().z()}};
 }
 
-/// The tree's leaves and tiles; the leaves' values stay in the tree.
+/// Lists the tree's leaves and tiles; the leaves' values stay in the tree.
 SparseField listBlocks(const openvdb::FloatTree& tree) {
     SparseField field;
     field.background = tree.background();
@@ -136,7 +137,7 @@ double wantedMiB(const IndexBox& crop, const LoadOptions& options) {
     return 2.0 * size.x * size.y * size.z / (1024.0 * 1024.0);
 }
 
-/// Corner-based voxel coordinates of the result, ring included, → index coordinates of the grid.
+/// The transform from corner-based voxel coordinates of the result, ring included, to index coordinates of the grid.
 Affine voxelToIndex(const IndexBox& crop, std::int64_t n) {
     const auto edge = static_cast<double>(n);
     Affine affine;

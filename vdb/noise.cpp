@@ -58,7 +58,7 @@ float fractalNoise(const glm::vec3& point, std::uint32_t seed, int octaves) {
     for (int octave = 0; octave < octaves; ++octave) {
         sum += amplitude * gradientNoise(p, seed + static_cast<std::uint32_t>(octave));
         amplitude *= 0.5F;
-        p = p * 2.0F + 19.19F;  // the shift keeps the lattices from lining up
+        p = p * 2.0F + 19.19F;  // the shift keeps the grids of the octaves from coinciding
     }
     return sum;
 }

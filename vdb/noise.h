@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-/// Seeded noise for the procedural clouds. Everything random comes from integer hashes, so that a seed means the same
+/// Seeded noise for the procedural clouds. All randomness comes from integer hashes, so that a seed gives the same
 /// cloud on every machine.
 namespace lumulus::vdb {
 
-/// A 32-bit hash of a lattice cell.
+/// A 32-bit hash of a grid cell.
 std::uint32_t hashCell(const glm::ivec3& cell, std::uint32_t seed);
 
 /// A well mixed 32-bit seed for one use (`stream`) of the user's seed.
@@ -22,7 +22,7 @@ float fractalNoise(const glm::vec3& point, std::uint32_t seed, int octaves);
 /// Distance to the nearest of the feature points, one in each unit cell (Worley 1996).
 float cellDistance(const glm::vec3& point, std::uint32_t seed);
 
-/// Round bumps on sharp creases, 0 in a crease to 1 on a bump: what a cauliflower's surface looks like.
+/// Round bumps between sharp creases like a cauliflower's surface, 0 in a crease to 1 on a bump.
 float billowNoise(const glm::vec3& point, std::uint32_t seed);
 
 /// Smooth step from 0 at `low` to 1 at `high` (cubic Hermite).

@@ -13,7 +13,7 @@
 #include "base/progress.h"
 #include "vdb/volume.h"
 
-/// What the makers of the procedural clouds share (inside vdb/ only).
+/// Shared parts of the procedural clouds (inside vdb/ only).
 namespace lumulus::vdb {
 
 Volume makeCumulus(int resolution, std::uint64_t seed, const Report& report);
@@ -26,7 +26,7 @@ Volume makeSlab(int resolution, const Report& report);
 /// middle above the origin. `flattening`: width of a voxel over its height.
 Volume makeBox(const std::string& name, const glm::dvec3& extent, int resolution, double flattening = 1.0);
 
-/// Metres of the middle of voxel (x, y, z).
+/// The middle of voxel (x, y, z) in metres.
 inline glm::vec3 voxelCentre(const Volume& volume, int x, int y, int z) {
     return glm::vec3(volume.toWorld.point(glm::dvec3(x, y, z) + 0.5));
 }

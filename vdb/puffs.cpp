@@ -56,7 +56,7 @@ std::vector<Puff> growTowers(RandomStream& random) {
     return puffs;
 }
 
-/// Whether a sphere lies so deep inside one of `hosts` that it adds nothing to the surface.
+/// True if a sphere lies so deep inside one of `hosts` that it adds nothing to the surface.
 bool buried(const Puff& puff, const std::vector<Puff>& hosts) {
     return std::any_of(hosts.begin(), hosts.end(), [&](const Puff& host) {
         return glm::length(puff.centre - host.centre) + 0.75F * puff.radius < host.radius;

@@ -20,8 +20,8 @@ struct QuantisedVolume {
 std::size_t texelBytes(DensityFormat format);
 
 /// Divides by the maximum, which is stored exactly as 1, and takes the smallest format whose measured relative error is
-/// at most 1e-3; R32F holds whatever the others do not. Rounds to nearest (half floats: ties to even). An empty volume
-/// gives zeros in R8. Errors: Error where interrupted.
+/// at most 1e-3; R32F is the last choice. Rounds to nearest (half floats: ties to even). An empty volume gives zeros in
+/// R8. Errors: Error if interrupted.
 QuantisedVolume quantise(const Volume& volume);
 
 }  // namespace lumulus::vdb

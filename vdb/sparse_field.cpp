@@ -230,7 +230,7 @@ Survey surveyField(const SparseField& field) {
             return part;
         },
         merge);
-    // whatever the blocks leave open holds the background: the whole box is taken
+    // voxels outside of all blocks hold the background, so the whole box is occupied
     if (field.background > 0.0F) survey.occupied = field.bounds;
     return survey;
 }
@@ -246,7 +246,7 @@ std::int64_t chooseCoarsening(const glm::i64vec3& extent, double budget, int max
     };
     std::int64_t high = std::max({extent.x, extent.y, extent.z});
     if (!fits(high)) return 0;
-    std::int64_t low = 0;  // does not fit, or is no coarsening
+    std::int64_t low = 0;  // does not fit, or does not coarsen
     while (high - low > 1) {
         const std::int64_t middle = low + (high - low) / 2;
         (fits(middle) ? high : low) = middle;

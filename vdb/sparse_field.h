@@ -27,7 +27,8 @@ struct Block {
     float tile = 0.0F;
 };
 
-/// Blocks do not overlap; what none of them covers has the background's value. Only `bounds` counts.
+/// A field of blocks that do not overlap. Voxels outside of all blocks have the background's value. Only voxels in
+/// `bounds` count.
 struct SparseField {
     std::vector<Block> blocks;
     float background = 0.0F;
@@ -41,11 +42,11 @@ struct BadValue {
 };
 
 struct Survey {
-    IndexBox occupied;            ///< around all that is not zero; empty if nothing is
+    IndexBox occupied;            ///< around all nonzero values; empty if there are none
     std::optional<BadValue> bad;  ///< the one with the lexicographically smallest coordinate
 };
 
-/// Looks at every value within the bounds once. Errors: Error where interrupted.
+/// Visits every value within the bounds once. Errors: Error if interrupted.
 Survey surveyField(const SparseField& field);
 
 /// The smallest n for which boxes of n³ voxels, with a ring, fit both limits; 0 if even one voxel does not.
@@ -56,8 +57,8 @@ std::int64_t chooseCoarsening(const glm::i64vec3& extent, double budget, int max
 glm::ivec3 coarseSize(const glm::i64vec3& extent, std::int64_t n);
 
 /// The field over `crop` as averages over boxes of n³ voxels that start at its minimum (n = 1: the values themselves),
-/// with a ring of zeros. Fills size, density and maximum. What lies outside of `crop` counts as zero.
-/// Errors: Error where interrupted.
+/// with a ring of zeros. Fills size, density and maximum. Values outside of `crop` count as zero.
+/// Errors: Error if interrupted.
 Volume rasteriseField(const SparseField& field, const IndexBox& crop, std::int64_t n);
 
 }  // namespace lumulus::vdb

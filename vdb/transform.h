@@ -7,9 +7,9 @@
 
 namespace lumulus::vdb {
 
-/// `outer` applied after `inner`. Throws InputError, with `where` as its place, unless `outer` is affine, all is finite
-/// and the result has a volume: |det| above 1e-12 of the product of its columns' lengths, which no choice of units
-/// changes.
+/// The transform `outer` after `inner`. Throws InputError with the place `where` unless `outer` is affine, all numbers
+/// are finite and the result has a volume: |det| above 1e-12 of the product of its columns' lengths, a bound that does
+/// not depend on units.
 Affine composeTransforms(const glm::dmat4& outer, const Affine& inner, const std::string& where);
 
 /// `outer` applied after `inner`; neither is checked.

@@ -6,7 +6,7 @@
 
 namespace lumulus::vdb {
 
-/// world = linear · local + translation, in metres; doubles, since a cloud may lie 1e7 m from the origin.
+/// world = linear · local + translation, in metres. Doubles are needed for clouds 1e7 m from the origin.
 struct Affine {
     glm::dmat3 linear{1.0};
     glm::dvec3 translation{0.0};

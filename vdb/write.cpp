@@ -49,8 +49,8 @@ std::uint64_t hashOf(std::string_view bytes, std::uint64_t hash) {
     return hash;
 }
 
-/// OpenVDB draws a random UUID for each file it writes. One from the content instead (RFC 9562, version 8): the same
-/// cloud makes the same bytes.
+/// Replaces the random UUID that OpenVDB gives each file by one from the content (RFC 9562, version 8), so that equal
+/// clouds give equal bytes.
 void setContentUuid(std::string& file) {
     constexpr std::size_t start = 21;   // after the magic number, three versions and a flag
     constexpr std::size_t length = 36;  // in text

@@ -7,10 +7,10 @@
 namespace lumulus::vdb {
 
 /// Writes an ordinary .vdb file: one FloatGrid "density", a fog volume whose transform gives metres; zeros are
-/// inactive. `load` gives the volume back. The same volume gives the same bytes. Written beside and renamed:
-/// nothing half-written stays under the name.
-/// Throws InputError where the place cannot be written to or the transform cannot be saved, Error where writing fails
-/// (disk full).
+/// inactive. `load` reads the same volume back. Equal volumes give equal bytes. The file is written beside the name and
+/// renamed, so that nothing half-written stays under the name.
+/// Throws InputError if the place cannot be written to or the transform cannot be saved, Error if writing fails (disk
+/// full).
 void write(const Volume& volume, const std::filesystem::path& path);
 
 }  // namespace lumulus::vdb

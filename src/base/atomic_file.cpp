@@ -33,7 +33,7 @@ class Descriptor {
         if (fd_ >= 0) ::close(fd_);
     }
     int get() const { return fd_; }
-    /// Closes and tells whether the kernel took everything: network file systems report a full disk only here.
+    /// Closes the file. Returns false where the kernel lost data: network file systems report a full disk only here.
     bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
 
   private:
@@ -89,7 +89,7 @@ void writeAll(const Descriptor& file, std::span<const std::byte> bytes, const fs
     }
 }
 
-/// The file that `path` means, its links followed, in a folder that exists.
+/// The file that `path` stands for, with its links followed. Its folder exists.
 fs::path resolve(const fs::path& path) {
     std::error_code ec;
     if (path.empty()) throw InputError("the output has no name", "", "give a file name");
@@ -141,7 +141,7 @@ void writeFile(const fs::path& path, std::span<const std::byte> bytes) {
     Descriptor file = temporary.takeDescriptor();
     writeAll(file, bytes, path);
     if (::fsync(file.get()) != 0 || !file.close() || !temporary.renameTo(target)) failWrite(path, errno);
-    // the name itself becomes durable with the folder; not every file system can, and then nothing is lost yet
+    // the new name is durable once its folder is synchronised; a file system that cannot do this has lost nothing yet
     const Descriptor folder(::open(target.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folder.get() >= 0) ::fsync(folder.get());
 }

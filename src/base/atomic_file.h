@@ -6,13 +6,13 @@
 
 namespace lumulus {
 
-/// Writes a whole file so that its name never stands for half of it: a temporary beside it, fsync, rename.
-/// A symbolic link is followed; what is no regular file (a device, a pipe) is written to directly.
-/// Errors: InputError for a place that cannot be written to, Error where writing fails (disk full); the temporary is
-/// gone in both cases and a file that existed before is as it was.
+/// Writes a whole file. A temporary file beside it is written, synchronised and renamed, so that the name never stands
+/// for half a file. Symbolic links are followed; devices and pipes are written to directly.
+/// Errors: InputError where the place cannot be written to, Error where writing fails (disk full). In both cases the
+/// temporary file is removed and a file that existed before is unchanged.
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-/// Throws the InputError that writeFile would throw, before hours of work: makes the temporary and removes it.
+/// Throws the InputError that writeFile would throw, before hours of work: makes the temporary file and removes it.
 void checkWritable(const std::filesystem::path& path);
 
 }  // namespace lumulus

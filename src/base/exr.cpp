@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t maximumValues = std::size_t{1} << 28;
 
-/// Attributes that the format types for files of several parts: strict readers refuse a string there.
+/// Attributes whose types the format fixes for files of several parts: strict readers refuse a string there.
 constexpr std::array<std::string_view, 4> multipartAttributes{"name", "type", "version", "chunkCount"};
 
 /// A slice whose first value belongs to pixel (x0, y0).
@@ -40,7 +40,8 @@ Imf::Header headerOf(const LayeredImage& image, const std::string& name) {
     header.compression() = Imf::ZIP_COMPRESSION;
     for (const auto& [attribute, text] : image.attributes) {
         if (header.find(attribute.c_str()) != header.end() || std::ranges::count(multipartAttributes, attribute) > 0) {
-            throw InputError("the attribute \"" + attribute + "\" belongs to the format", name, "name it otherwise");
+            throw InputError("the attribute \"" + attribute + "\" is reserved by the format", name,
+                             "give it another name");
         }
         header.insert(attribute, Imf::StringAttribute(text));
     }

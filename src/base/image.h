@@ -16,7 +16,7 @@ struct LayeredImage {
 
     std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 
-    /// The named layer, made with `fill` where it does not exist yet.
+    /// Returns the named layer. A layer that does not exist yet is created with all values equal to `fill`.
     std::vector<float>& layer(const std::string& name, float fill = 0.0F) {
         return layers.try_emplace(name, pixels(), fill).first->second;
     }

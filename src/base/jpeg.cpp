@@ -11,7 +11,7 @@
 namespace lumulus {
 namespace {
 
-/// libjpeg expects this not to return; an exception leaves it, and the compressor is destroyed on the way.
+/// libjpeg expects that this function does not return. It throws, and the compressor is destroyed while unwinding.
 void onError(j_common_ptr info) {
     char text[JMSG_LENGTH_MAX];
     (*info->err->format_message)(info, text);
@@ -60,7 +60,7 @@ std::vector<std::byte> encodeJpeg(int width, int height, std::span<const std::ui
     jpeg_set_quality(&info, quality, TRUE);
     jpeg_start_compress(&info, TRUE);
     while (info.next_scanline < info.image_height) {
-        // the library reads through a pointer to what it takes for mutable
+        // the library only reads through this pointer, although its type is mutable
         JSAMPROW line = const_cast<JSAMPROW>(rgb.data() + info.next_scanline * row);
         jpeg_write_scanlines(&info, &line, 1);
     }

@@ -8,11 +8,11 @@
 namespace lumulus {
 namespace {
 
-/// A text quotes names of any length, often twice; what is wrong and how to mend it stand at its two ends.
+/// Longest message in bytes. Messages quote names of any length; the cause and the remedy stand at their two ends.
 constexpr std::size_t longestText = 800;
 
 void print(std::string_view kind, std::string_view text) {
-    // one call, so that lines of several threads do not mix
+    // one write, so that lines of several threads do not mix
     const std::string line = "lumulus: " + std::string(kind) + shortened(oneLine(text), longestText) + "\n";
     std::fwrite(line.data(), 1, line.size(), stderr);
 }

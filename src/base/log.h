@@ -4,13 +4,13 @@
 
 namespace lumulus {
 
-/// One line on stderr, `lumulus: …`, that is no complaint; as logWarning's.
+/// Writes a message that is no complaint as one line on stderr, `lumulus: …`, shortened as by logWarning.
 void logNote(std::string_view text);
 
-/// One line on stderr, `lumulus: warning: …`. Whatever the text quotes, the line is short and safe for a terminal.
+/// Writes one line on stderr, `lumulus: warning: …`, shortened and made safe for a terminal.
 void logWarning(std::string_view text);
 
-/// One line on stderr, `lumulus: error: …`, as logWarning's.
+/// Writes one line on stderr, `lumulus: error: …`, shortened as by logWarning.
 void logError(std::string_view text);
 
 }  // namespace lumulus

@@ -48,7 +48,7 @@ void Progress::show(Clock::time_point now) {
     shown_ = now;
     complete_ = total_ > 0 && done_ >= total_;
     const std::string line = text(std::chrono::duration<double>(now - start_).count());
-    // \033[K clears what a longer line left behind
+    // \033[K clears the rest of a longer line before
     if (terminal_)
         sink_("\r" + line + "\033[K");
     else if (total_ != 1 || complete_)

@@ -9,27 +9,27 @@
 
 namespace lumulus {
 
-/// Long work tells of it: the name of a step, and how much of it is done. Called by the thread that asked for the work.
+/// Long work calls a Report with the name of a step and its progress, on the thread that requested the work.
 using Report = std::function<void(std::string_view step, std::uint64_t done, std::uint64_t total)>;
 
-/// The Report of those who do not want to know.
+/// A Report that does nothing.
 inline void noReport(std::string_view, std::uint64_t, std::uint64_t) {}
 
-/// Shows how far long work is: a bar with rate and time left on a terminal, plain lines when piped (the first, the
+/// Shows the progress of long work: a bar with rate and time left on a terminal, plain lines when piped (the first, the
 /// last, and at most one every two seconds), nothing when quiet. Work of a single step (total 1) shows no bar, and when
-/// piped only the time it took. Not for several threads.
+/// piped only its duration. Not thread-safe.
 class Progress {
   public:
     using Clock = std::chrono::steady_clock;
     using Sink = std::function<void(const std::string&)>;
 
-    /// On stderr. `total` in the unit of `advance`.
+    /// Shows progress on stderr. `total` has the unit of `advance`.
     Progress(std::string title, std::uint64_t total, bool quiet);
-    /// To a sink of the caller's.
+    /// Shows progress through a sink of the caller.
     Progress(std::string title, std::uint64_t total, bool terminal, Sink sink);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
-    /// Ends the line of a bar whose work stopped early.
+    /// Ends the line of a bar if the work stopped early.
     ~Progress();
 
     void advance(std::uint64_t n = 1);
@@ -48,14 +48,14 @@ class Progress {
     bool complete_ = false;
 };
 
-/// Shows the steps that a Report tells of, each by a Progress of its own.
+/// Shows the steps of a Report, each with a Progress of its own.
 class Steps {
   public:
     explicit Steps(bool quiet) : quiet_(quiet) {}
 
-    /// A step begins with `done` 0, or with a name that is not the last one's.
+    /// Shows the progress of a step. A new step begins when `done` is 0 or when the name changes.
     void report(std::string_view step, std::uint64_t done, std::uint64_t total);
-    /// For those who do the work; this object has to outlive it.
+    /// The Report that calls report(). This object has to outlive it.
     Report reporter();
 
   private:
@@ -65,7 +65,7 @@ class Steps {
     std::optional<Progress> progress_;
 };
 
-/// Seconds for people: "0.4 s", "12 s", "3 min 05 s", "2 h 07 min".
+/// Formats seconds for people: "0.4 s", "12 s", "3 min 05 s", "2 h 07 min".
 std::string durationText(double seconds);
 
 }  // namespace lumulus

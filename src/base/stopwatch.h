@@ -4,7 +4,7 @@
 
 namespace lumulus {
 
-/// Seconds since it was made.
+/// Measures the seconds since its construction.
 class Stopwatch {
   public:
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

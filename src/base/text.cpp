@@ -11,7 +11,7 @@ bool isContinuation(char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
 
-/// Bytes of the well-formed UTF-8 character that `text` begins with (RFC 3629); 0 where there is none.
+/// Number of bytes of the UTF-8 character at the beginning of `text` (RFC 3629); 0 if it is not well-formed.
 std::size_t characterLength(std::string_view text) {
     const auto first = static_cast<unsigned char>(text[0]);
     if (first < 0x80) return 1;
@@ -27,7 +27,7 @@ std::size_t characterLength(std::string_view text) {
     return code < shortest[length] || code > 0x10FFFF || surrogate ? 0 : length;
 }
 
-/// U+0000 to U+001F, U+007F, and U+0080 to U+009F in two bytes.
+/// True for the control characters U+0000 to U+001F, U+007F, and U+0080 to U+009F (two bytes).
 bool isControl(std::string_view character) {
     const auto first = static_cast<unsigned char>(character[0]);
     return first < 0x20 || first == 0x7F || (first == 0xC2 && static_cast<unsigned char>(character[1]) < 0xA0);

@@ -8,7 +8,7 @@
 namespace lumulus {
 namespace {
 
-/// Narkowicz 2015; x ≥ 0. The clamp keeps x² finite; the curve is flat long before.
+/// The filmic curve of Narkowicz 2015 for x ≥ 0. The clamp keeps x² finite; the curve is flat long before.
 double filmic(double x) {
     x = std::min(x, 1e6);
     return std::min(1.0, x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14));

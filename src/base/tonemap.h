@@ -7,10 +7,10 @@
 
 namespace lumulus {
 
-/// Layers R, G, B (linear Rec. 709 radiance) as 8-bit sRGB for people: exposure in photographic stops, the filmic curve
-/// of Narkowicz (2015, "ACES filmic tone mapping curve"), the sRGB transfer function (IEC 61966-2-1), and a dither that
-/// depends on the pixel alone. Returns width·height·3 bytes, rows from the top. NaN and negative values become black,
-/// infinity white.
+/// Tone maps the layers R, G, B (linear Rec. 709 radiance) to 8-bit sRGB: exposure in photographic stops, the filmic
+/// curve of Narkowicz (2015, "ACES filmic tone mapping curve"), the sRGB transfer function (IEC 61966-2-1), and a
+/// dither that depends on the pixel alone. Returns width·height·3 bytes, rows from the top. NaN and negative values
+/// become black, infinity white.
 std::vector<std::uint8_t> toneMap(const LayeredImage& image, double exposureStops);
 
 }  // namespace lumulus

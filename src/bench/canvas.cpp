@@ -38,7 +38,7 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned int lengt
     return CAIRO_STATUS_SUCCESS;
 }
 
-/// What Cairo can show. An error would end the drawing, and names of files may hold any bytes.
+/// Text that Cairo can show. File names may hold any bytes, and an error would end the drawing.
 std::string showable(std::string words) {
     cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
     cairo_t* context = cairo_create(surface);
@@ -120,7 +120,7 @@ void Canvas::text(const Point& at, Anchor anchor, const std::string& words) {
     setColour(context_.get(), {0.1, 0.1, 0.1});
     cairo_move_to(context_.get(), at.x - share * extents.x_advance, at.y);
     cairo_show_text(context_.get(), shown.c_str());
-    cairo_new_path(context_.get());  // the point behind the words would begin the next line
+    cairo_new_path(context_.get());  // otherwise the next line would begin behind the words
 }
 
 void Canvas::textUpwards(const Point& at, Anchor anchor, const std::string& words) {

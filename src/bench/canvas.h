@@ -15,7 +15,7 @@ struct Point {
     double x = 0.0, y = 0.0;
 };
 
-/// sRGB, each 0…1.
+/// An sRGB colour, each channel 0…1.
 struct Colour {
     double red = 0.0, green = 0.0, blue = 0.0;
 };
@@ -23,7 +23,7 @@ struct Colour {
 struct Stroke {
     Colour colour;
     double width = 1.0;
-    std::vector<double> dashes;  ///< lengths on and off in turn; none: a whole line
+    std::vector<double> dashes;  ///< alternating lengths of dashes and gaps; empty: a solid line
 };
 
 enum class Anchor { left, middle, right };
@@ -33,19 +33,19 @@ enum class Anchor { left, middle, right };
 class Canvas {
   public:
     static Canvas svg(double width, double height);
-    /// With `scale` texels a pixel.
+    /// A canvas for a PNG file with `scale` texels a pixel.
     static Canvas png(double width, double height, double scale);
 
     void line(std::span<const Point> points, const Stroke& stroke);
     void box(const Point& upperLeft, const Point& lowerRight, const Stroke& stroke);
-    /// Filled with its colour, or white within a line of it.
+    /// Draws a disc: filled with its colour, or white with an outline of the colour.
     void disc(const Point& centre, double radius, const Colour& colour, bool filled);
-    /// On the baseline through `at`; letters that make no UTF-8 appear as question marks.
+    /// Writes words on the baseline through `at`. Bytes that are no UTF-8 appear as question marks.
     void text(const Point& at, Anchor anchor, const std::string& words);
-    /// The same, read upwards.
+    /// Writes words that run upwards.
     void textUpwards(const Point& at, Anchor anchor, const std::string& words);
 
-    /// The file. Nothing can be drawn afterwards. Errors: Error where Cairo could not draw.
+    /// Finishes the file and returns its bytes. Nothing can be drawn afterwards. Errors: Error if Cairo could not draw.
     std::vector<std::byte> finish();
 
   private:
@@ -58,7 +58,7 @@ class Canvas {
     Canvas(std::unique_ptr<Bytes> bytes, _cairo_surface* surface, bool raster);
     void begin(const Stroke& stroke);
 
-    std::unique_ptr<Bytes> bytes_;  ///< where Cairo writes to: must not move
+    std::unique_ptr<Bytes> bytes_;  ///< Cairo writes to this place, so it must not move
     bool raster_;
     std::unique_ptr<_cairo_surface, Release> surface_;
     std::unique_ptr<_cairo, Release> context_;

@@ -5,7 +5,7 @@
 
 namespace lumulus::bench {
 
-/// An error that was measured after so many seconds.
+/// An error with the time after which it was measured.
 struct CurvePoint {
     double seconds = 0.0;
     double error = 0.0;
@@ -13,9 +13,9 @@ struct CurvePoint {
 
 enum class Reached {
     measured,      ///< between two points, interpolated
-    atFirst,       ///< the first point is already there: the time is an upper bound
-    extrapolated,  ///< beyond the last point, if the error goes on falling with the samples
-    never,         ///< no point is there, and nothing says that longer runs would be
+    atFirst,       ///< the first point is already below the target: the time is an upper bound
+    extrapolated,  ///< beyond the last point, assuming that the error is variance alone
+    never,         ///< no point reaches the target, and longer runs need not reach it
 };
 
 struct TimeToError {
@@ -23,10 +23,10 @@ struct TimeToError {
     double seconds = 0.0;
 };
 
-/// The seconds after which the error is first down to `target` (> 0). Points in order of time; between two of them the
-/// curve is straight on doubly logarithmic paper. An error of 0 or less (it came out below the noise of the reference)
-/// counts as reached at its own time. `fixedSeconds`, given where the error is variance alone: beyond the last point it
-/// falls as 1/(time − fixedSeconds).
+/// Finds the seconds after which the error first falls to `target` (> 0). Points are in order of time; between two
+/// points the curve is straight on doubly logarithmic paper. An error of 0 or less (below the noise of the reference)
+/// counts as reached at its own time. If `fixedSeconds` is given, the error is variance alone and falls as 1/(time −
+/// fixedSeconds) beyond the last point.
 TimeToError timeToReach(std::span<const CurvePoint> curve, double target, std::optional<double> fixedSeconds);
 
 }  // namespace lumulus::bench

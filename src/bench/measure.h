@@ -8,19 +8,19 @@
 
 namespace lumulus::bench {
 
-/// The picture that others are measured against, with its own noise.
+/// The reference picture and its own noise.
 struct Truth {
     LayeredImage image;
     std::string name;             ///< for messages
-    double exposure = 0.0;        ///< stops, of the tone-mapped pictures that FLIP sees
-    std::optional<double> floor;  ///< relMSE that the reference's noise alone makes, by its variance layers
+    double exposure = 0.0;        ///< stops, for the tone-mapped pictures that FLIP compares
+    std::optional<double> floor;  ///< relMSE of the reference's noise, by its variance layers
 };
 
-/// Errors: InputError for a picture that cannot be compared with (reference::requireComparable), of another size, or
-/// black.
+/// Checks and measures a reference. Errors: InputError if it cannot be compared with (reference::requireComparable),
+/// has another size, or is black.
 Truth makeTruth(LayeredImage image, std::string name, int width, int height, double exposure);
 
-/// Errors: InputError where the picture holds NaN.
+/// Measures the errors of a picture. Errors: InputError if the picture holds NaN.
 Errors measure(const LayeredImage& image, const Truth& truth);
 
 }  // namespace lumulus::bench

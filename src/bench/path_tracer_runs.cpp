@@ -21,7 +21,7 @@ reference::Renderer tracerOf(const scene::Scene& scene, std::uint64_t seed) {
     return {scene, clouds.placed(), reference::Majorant::local, seed};
 }
 
-/// Passes until `budget` seconds are spent in all; returns the seconds spent, `spent` of them before.
+/// Runs passes until `budget` seconds are spent. `spent` is the time of earlier passes; returns the time of all passes.
 double passUntil(reference::Renderer& tracer, double budget, double spent) {
     while (spent < budget || tracer.film().samples == 0) {
         const Clock::time_point start = Clock::now();

@@ -10,11 +10,11 @@
 
 namespace lumulus::bench {
 
-/// Pictures of the reference tracer with its local majorant, the faster of the two, at each budget (seconds without
-/// warm-up, in rising order) and seed. A seed is one run, looked at whenever a budget is spent, after whole passes and
-/// at least one: its pictures share samples. The time without warm-up is that of the passes and of the picture;
-/// loading, majorants and measuring are outside. `progress` advances by one a seed and budget. Errors: those of the
-/// reference tracer; Error where interrupted.
+/// Renders pictures with the reference tracer at each budget (seconds without warm-up, in rising order) and seed, with
+/// its local majorant, which is the faster one. A seed is one run whose picture is measured when a budget is spent,
+/// after one whole pass at least, so the pictures of a seed share samples. The time without warm-up contains passes and
+/// picture, but not loading, majorants and measuring. `progress` advances by one for each seed and budget. Errors:
+/// those of the reference tracer; Error if interrupted.
 std::vector<Run> pathTracerRuns(const scene::Scene& scene, const Truth& truth, std::span<const double> budgets,
                                 std::span<const std::uint64_t> seeds, Progress& progress);
 

@@ -79,7 +79,7 @@ std::vector<Row> parsePeer(std::string_view text, const std::string& source) {
 
 std::vector<Row> readPeer(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
-    if (!file) throw InputError("no such file, or not to be read", path.string(), "give a table (.csv)");
+    if (!file) throw InputError("cannot read the file", path.string(), "give a table (.csv)");
     return parsePeer(std::string(std::istreambuf_iterator<char>(file), {}), path.string());
 }
 

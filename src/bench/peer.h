@@ -12,7 +12,7 @@ namespace lumulus::bench {
 /// (scripts/study/run cycles makes it). Errors: InputError that names the file and line.
 std::vector<Row> readPeer(const std::filesystem::path& path);
 
-/// The same for text.
+/// Reads such rows from text; `source` stands for the file in messages.
 std::vector<Row> parsePeer(std::string_view text, const std::string& source);
 
 }  // namespace lumulus::bench

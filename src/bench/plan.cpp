@@ -29,10 +29,11 @@ std::vector<PhotonBudget> planPhotons(std::span<const double> budgets, const Cos
 
 std::vector<double> orderedBudgets(std::vector<double> budgets) {
     constexpr double longest = 1e6;
-    if (budgets.empty()) throw InputError("there is no time to run for", "--seconds", "give budgets such as 0.3,1,3");
+    if (budgets.empty()) throw InputError("no budget is given", "--seconds", "give budgets such as 0.3,1,3");
     for (const double seconds : budgets) {
         if (seconds > 0.0 && seconds <= longest) continue;
-        throw InputError(fmt::format("{} seconds is no budget", seconds), "--seconds", "give times above 0, up to 1e6");
+        throw InputError(fmt::format("the budget of {} seconds is out of range", seconds), "--seconds",
+                         "give times above 0, up to 1e6");
     }
     std::ranges::sort(budgets);
     budgets.erase(std::ranges::unique(budgets).begin(), budgets.end());

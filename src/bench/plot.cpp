@@ -50,7 +50,7 @@ struct Series {
     Spread Row::*seconds;
     const char* name;
     Colour colour;
-    bool whole;  ///< by the clock of the whole process: hollow, dashed
+    bool whole;  ///< time of the whole process: hollow discs, dashed lines
 
     Stroke stroke() const { return {colour, lineWidth, whole ? std::vector{5.0, 4.0} : std::vector<double>{}}; }
 };
@@ -113,8 +113,8 @@ void drawSeries(Canvas& canvas, const Series& series, std::span<const Row> rows,
     for (const Point& point : points) canvas.disc(point, 3.4, series.colour, !series.whole);
 }
 
-/// Above the grid, where no curve can be: a column for each method, and a line for the floor. Cycles has its place only
-/// where there are points of it.
+/// Draws the legend above the grid, where no curve can be: a column for each method, and a line for the noise floor.
+/// Cycles appears only if it has points.
 void drawLegend(Canvas& canvas, bool withFloor, bool withCycles) {
     constexpr std::array columns{left, left + 206.0, left + 436.0};
     constexpr double rowHeight = 18.0, sample = 32.0;

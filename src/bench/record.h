@@ -9,19 +9,19 @@ namespace lumulus::bench {
 
 enum class Method { render, pathTracer, cycles };
 
-/// "render", "path tracer", "Cycles".
+/// Name of a method: "render", "path tracer" or "Cycles".
 const char* nameOf(Method method);
 
-/// How far a picture is from the reference (see reference::Comparison).
+/// Errors of a picture against the reference (see reference::Comparison).
 struct Errors {
-    double relMse = 0.0;  ///< without the reference's own noise, where that is known
-    double rmse = 0.0;    ///< with it
+    double relMse = 0.0;  ///< without the reference's own noise, if that is known
+    double rmse = 0.0;    ///< with the reference's noise
     double flip = 0.0;
     double bias = 0.0;          ///< mean signed difference, W·m⁻²·sr⁻¹
-    double relativeBias = 0.0;  ///< the same over the reference's mean
+    double relativeBias = 0.0;  ///< bias over the reference's mean
 };
 
-/// One picture and what it took.
+/// One picture with its time and its errors.
 struct Run {
     Method method = Method::render;
     double budget = 0.0;       ///< seconds wanted, without warm-up
@@ -31,7 +31,7 @@ struct Run {
     Errors errors;
 };
 
-/// Over the seeds: mean, and standard deviation (0 for a single seed).
+/// Mean and standard deviation over the seeds (0 for a single seed).
 struct Spread {
     double mean = 0.0;
     double deviation = 0.0;
@@ -45,10 +45,10 @@ struct Row {
     Spread seconds, warmSeconds, amount, relMse, rmse, flip, bias, relativeBias;
 };
 
-/// Rows in the order in which method and budget first appear.
+/// Groups runs into rows, in the order in which method and budget first appear.
 std::vector<Row> summarise(std::span<const Run> runs);
 
-/// One line a row, after a line of names; `_spread` is the standard deviation over the seeds.
+/// The rows as CSV with a line of names first; `_spread` is the standard deviation over the seeds.
 std::string csv(std::span<const Row> rows);
 
 }  // namespace lumulus::bench

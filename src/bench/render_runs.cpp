@@ -20,7 +20,7 @@ struct Timed {
     double seconds = 0.0, warmSeconds = 0.0, photons = 0.0;
 };
 
-/// Seconds of a generation.
+/// Traces a generation and returns its seconds.
 double traceOne(Renderer& renderer) {
     stopIfInterrupted();
     const Clock::time_point start = Clock::now();
@@ -60,7 +60,7 @@ Cost costOf(scene::Scene scene, const std::string& device) {
 
 std::vector<Run> renderRuns(const scene::Scene& scene, const std::string& device, const Truth& truth,
                             std::span<const double> budgets, std::span<const std::uint64_t> seeds, Progress& progress) {
-    // fewer photons than this a generation are overhead and nothing else
+    // with fewer photons a generation is nothing but overhead
     const std::int64_t fewest = std::int64_t{100} * scene.photonMap.generations;
     std::vector<Run> runs;
     const std::vector<PhotonBudget> plan = planPhotons(budgets, costOf(scene, device), fewest);

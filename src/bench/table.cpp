@@ -20,8 +20,8 @@ struct Clock {
 
 constexpr std::array<Clock, 2> clocks{{{"without warm-up", &Row::warmSeconds}, {"whole", &Row::seconds}}};
 
-/// The times of one method to reach the target. Those of path tracers go on beyond the last point, from which their
-/// time before the first sample is known.
+/// Time of one method to reach the target. Path tracers are extrapolated beyond the last point, which also tells their
+/// time before the first sample.
 TimeToError timeOf(std::span<const Row> rows, Method method, const Clock& clock, double target) {
     std::vector<CurvePoint> curve;
     double fixed = 0.0;
@@ -47,7 +47,7 @@ std::string timeText(const TimeToError& time) {
     return "not reached";
 }
 
-/// How many times longer a path tracer takes.
+/// The ratio of the path tracer's time to that of `render`.
 std::string ratioText(const TimeToError& render, const TimeToError& tracer) {
     if (render.how == Reached::never || tracer.how == Reached::never) return "-";
     const bool renderBound = render.how == Reached::atFirst, tracerBound = tracer.how == Reached::atFirst;

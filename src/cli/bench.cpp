@@ -32,7 +32,7 @@ void makeFolder(const std::filesystem::path& folder) {
     }
 }
 
-/// The seed that the reference says it was made with.
+/// The seed in the reference's attributes.
 std::optional<std::uint64_t> seedOf(const LayeredImage& reference) {
     const auto found = reference.attributes.find("seed");
     if (found == reference.attributes.end()) return {};
@@ -54,7 +54,7 @@ void runBench(const BenchOptions& options) {
                                                 scene.image.height, scene.image.exposure);
     const std::vector<bench::Row> peer =
         options.cycles.empty() ? std::vector<bench::Row>() : bench::readPeer(options.cycles);
-    gpu::chooseDevices(gpu::listDevices(), options.device);  // refuses a device that there is not, before any work
+    gpu::chooseDevices(gpu::listDevices(), options.device);  // refuses an unknown device before any work
     makeFolder(options.output);
     for (const char* name : {"error.csv", "error.svg", "error.png"}) checkWritable(options.output / name);
 

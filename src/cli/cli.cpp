@@ -23,15 +23,15 @@
 namespace lumulus::cli {
 namespace {
 
-/// The subcommand that the command line chose; empty until then.
+/// Runs the subcommand of the command line; empty until the command line is parsed.
 using Action = std::function<void()>;
 
-/// Empty text is a variable of the shell that is not set, not a wish for the default.
+/// Refuses empty text, which usually comes from an unset shell variable and is no wish for the default.
 CLI::Validator notEmpty() {
     return {[](const std::string& text) { return text.empty() ? "give it a value" : ""; }, "TEXT"};
 }
 
-/// Like the seeds of scene files, up to 2^53.
+/// The range of seeds, 0 to 2^53 as in scene files.
 CLI::Range seedRange() {
     return {std::uint64_t{0}, std::uint64_t{1} << 53};
 }
@@ -53,23 +53,23 @@ void addRender(CLI::App& app, RenderOptions& options, Action& action) {
     command
         ->add_option_function<std::string>(
             "--quality", [&options, qualities](const std::string& name) { options.quality = qualities.at(name); },
-            "Preset for what the scene leaves out: draft, interactive or final")
+            "Preset for keys that the scene leaves out: draft, interactive or final")
         ->check(CLI::IsMember({"draft", "interactive", "final"}));
     command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
         ->allow_extra_args(false);
     command->add_option("--seed", options.seed, "Seed of the random numbers (photon_map.seed)")->check(seedRange());
     command
         ->add_option("--seconds", options.seconds,
-                     "Trace photons as long as the whole run, with drawing and writing, takes this time")
+                     "Trace photons so that the whole run, with drawing and writing, takes this many seconds")
         ->check(notEmpty());
     command
         ->add_option("--target-error", options.targetError,
-                     "Trace photons until their noise, as relMSE, is estimated to be this small")
+                     "Trace photons until the estimated relMSE of their noise is this small")
         ->check(notEmpty());
     addDevice(*command, options.device);
     command->add_option("--stats", options.stats, "Write statistics as JSON to this file, - for standard output")
         ->check(notEmpty());
-    command->add_flag("--quiet", options.quiet, "No progress");
+    command->add_flag("--quiet", options.quiet, "Show no progress");
     command->add_flag("--validate", options.validate, "Run with Vulkan validation; fail on any message");
     command->footer(
         "Example:\n  lumulus render configs/scenes/cumulus.toml -o cumulus.exr -o cumulus.png --quality draft");
@@ -100,7 +100,7 @@ void addInfo(CLI::App& app, InfoOptions& options, Action& action) {
 void addReference(CLI::App& app, ReferenceOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("reference", "Render a scene without bias, by path tracing on the CPU");
     command->add_option("scene", options.scene, "Scene file (TOML)")->required();
-    command->add_option("-o,--output", options.output, "Picture (.exr); the exact sums go beside it (.sums)")
+    command->add_option("-o,--output", options.output, "Picture (.exr); a file .sums beside it holds the exact sums")
         ->required();
     const CLI::Range positive(1e-3, 1e9);
     command->add_option("--spp", options.spp, "Stop at this many samples per pixel")
@@ -109,9 +109,9 @@ void addReference(CLI::App& app, ReferenceOptions& options, Action& action) {
     command
         ->add_option_function<std::string>(
             "--majorant", [&options](const std::string& name) { options.localMajorant = name == "local"; },
-            "global (default), or local: faster, the same picture but for noise")
+            "global (default) or local, which is faster and changes only the noise")
         ->check(CLI::IsMember({"global", "local"}));
-    command->add_flag("--resume", options.resume, "Go on from the file that is there: --spp counts its samples too");
+    command->add_flag("--resume", options.resume, "Continue the existing file; --spp includes its samples");
     command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
         ->allow_extra_args(false);
     command->add_option("--seed", options.seed, "Seed of the random numbers (photon_map.seed)")->check(seedRange());
@@ -126,7 +126,7 @@ void addCompare(CLI::App& app, CompareOptions& options, Action& action) {
     command->add_option("image", options.image, "Picture (.exr)")->required();
     command->add_option("reference", options.reference, "Reference (.exr)")->required();
     command->add_option("second", options.secondReference,
-                        "A second, independent reference, to be free of their noise");
+                        "A second, independent reference, which removes the noise of both");
     command
         ->add_option("--denominator", options.denominator,
                      "Picture (.exr) whose squares divide those of errors in relMSE, and whose cloud is compared, for "
@@ -135,7 +135,9 @@ void addCompare(CLI::App& app, CompareOptions& options, Action& action) {
     command->add_flag("--json", options.json, "As JSON");
     command->add_option("--diff", options.diff,
                         "Write the difference: false colours (.png) or image - reference (.exr)");
-    command->add_option("--exposure", options.exposure, "Stops, for the tone-mapped pictures that FLIP sees")
+    command
+        ->add_option("--exposure", options.exposure,
+                     "Photographic stops for the tone-mapped pictures that FLIP compares")
         ->check(CLI::Range(-32.0, 32.0));
     command->footer("Example:\n  lumulus compare cumulus.exr truth.exr --diff difference.png");
     command->callback([&options, &action] { action = [&options] { runCompare(options); }; });
@@ -169,7 +171,8 @@ void addSlab(CLI::App& app, SlabOptions& options, Action& action) {
     command->add_option("--photons", options.slab.photons, "Photons to trace")->capture_default_str();
     command->add_option("--seed", options.slab.seed, "Seed of the random numbers")->check(seedRange());
     CLI::Option* device = addDevice(*command, options.device);
-    command->add_flag("--reference", options.reference, "By the tracer of `reference`, on the CPU, as a check")
+    command
+        ->add_flag("--reference", options.reference, "Trace with the path tracer of `reference` on the CPU, as a check")
         ->excludes(device);
     command->add_flag("--json", options.json, "As JSON");
     command->footer("Example:\n  lumulus slab --tau 2 --g 0.75 --albedo 0.9 --mu0 1 --json");
@@ -177,13 +180,13 @@ void addSlab(CLI::App& app, SlabOptions& options, Action& action) {
 }
 
 void addBench(CLI::App& app, BenchOptions& options, Action& action) {
-    CLI::App* command = app.add_subcommand("bench", "Measure error against run time, of render and of the path tracer");
+    CLI::App* command = app.add_subcommand("bench", "Measure error against run time of render and of the path tracer");
     command->add_option("scene", options.scene, "Scene file (TOML)")->required();
     command->add_option("--reference", options.reference, "Reference (.exr), of the scene's size")->required();
     command->add_option("-o,--output", options.output, "Folder for error.csv, error.svg and error.png")->required();
-    command->add_option("--seconds", options.seconds, "Times to run for, without warm-up (0.1,0.3,1,3,10)")
+    command->add_option("--seconds", options.seconds, "Budgets in seconds without warm-up (default: 0.1,0.3,1,3,10)")
         ->delimiter(',');
-    command->add_option("--seeds", options.seeds, "Pictures for each time")
+    command->add_option("--seeds", options.seeds, "Pictures for each budget")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command->add_option("--cycles", options.cycles, "Points of Blender's Cycles, from scripts/study/run cycles (.csv)")
@@ -198,7 +201,7 @@ void addBench(CLI::App& app, BenchOptions& options, Action& action) {
 
 void addServe(CLI::App& app, ServeOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("serve", "Serve frames to simulators, scripts and browsers");
-    command->add_option("--config", options.config, "Configuration (TOML), see docs/service.md")->required();
+    command->add_option("--config", options.config, "Configuration (TOML); docs/service.md explains it")->required();
     command->footer("Example:\n  lumulus serve --config configs/service.toml");
     command->callback([&options, &action] { action = [&options] { runServe(options); }; });
 }
@@ -208,40 +211,42 @@ void addFetch(CLI::App& app, FetchOptions& options, Action& action) {
     command->add_option("-o,--output", options.output, "Picture: .exr (all layers), .png or .jpg")->required();
     command->add_option("--address", options.address, "HOST:PORT or unix:PATH")->capture_default_str();
     command->add_option("--token-file", options.tokenFile, "File with the server's token");
-    command->add_option("--scene", options.scene, "Name of a scene on the server, or a scene file here (.toml)");
-    command->add_option("--vdb", options.vdb, "OpenVDB file to send, in the place of the scene's cloud");
+    command->add_option("--scene", options.scene, "Name of a scene on the server, or a local scene file (.toml)");
+    command->add_option("--vdb", options.vdb, "OpenVDB file to upload instead of the scene's cloud");
     command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
         ->allow_extra_args(false);
-    command->add_option("--quality", options.quality, "As for render")
+    command->add_option("--quality", options.quality, "Preset, as for render: draft, interactive or final")
         ->check(CLI::IsMember({"draft", "interactive", "final"}));
     command->add_option("--width", options.width, "Pixels");
     command->add_option("--height", options.height, "Pixels");
-    command->add_option("--position", options.position, "Of the camera: X Y Z, metres")->expected(3);
-    command->add_option("--target", options.target, "The point looked at: X Y Z, metres")->expected(3);
-    command->add_option("--fov", options.verticalFov, "Vertical, degrees");
-    command->add_option("--sun", options.sun, "AZIMUTH ELEVATION, degrees")->expected(2);
-    CLI::Option* deadline = command->add_option("--milliseconds", options.milliseconds, "Deadline, kept by doing less");
-    command->add_option("--photons", options.photons, "Draw once this many are there (default: all of the scene)")
+    command->add_option("--position", options.position, "Position of the camera: X Y Z, metres")->expected(3);
+    command->add_option("--target", options.target, "Point that the camera looks at: X Y Z, metres")->expected(3);
+    command->add_option("--fov", options.verticalFov, "Vertical field of view, degrees");
+    command->add_option("--sun", options.sun, "Direction of the sun: AZIMUTH ELEVATION, degrees")->expected(2);
+    CLI::Option* deadline =
+        command->add_option("--milliseconds", options.milliseconds, "Deadline; the server does less work to keep it");
+    command
+        ->add_option("--photons", options.photons, "Draw when this many photons are traced (default: all of the scene)")
         ->excludes(deadline);
-    command->add_option("--exposure", options.exposure, "Stops, for .png and .jpg");
+    command->add_option("--exposure", options.exposure, "Photographic stops, for .png and .jpg");
     command
         ->add_option("--stats", options.stats, "Write the server's reply as JSON to this file, - for standard output")
         ->check(notEmpty());
-    command->add_option("--timeout", options.timeout, "Seconds that anything may take")
+    command->add_option("--timeout", options.timeout, "Longest wait for each step, seconds")
         ->check(CLI::Range(0.1, 1e6))
         ->capture_default_str();
     command->footer("Example:\n  lumulus fetch -o cloud.png --width 640 --height 360 --sun 120 20");
     command->callback([&options, &action] { action = [&options] { runFetch(options); }; });
 }
 
-/// `lumulus nonsense --help` has no help to give; CLI11 would give the general one.
+/// Refuses `lumulus nonsense --help`, for which CLI11 would print the general help.
 void refuseUnknownCommand(const CLI::App& app) {
     const std::vector<std::string> unknown = app.remaining();
     if (app.get_subcommands().empty() && !unknown.empty())
         throw InputError("unknown command \"" + unknown.front() + "\"", "command line", "see lumulus --help");
 }
 
-/// Parses and runs. CLI11's own errors become bad usage; asking for help or the version does not fail.
+/// Parses the command line and runs the command. Errors of CLI11 become bad usage; help and version do not fail.
 void parseAndRun(int argc, const char* const* argv) {
     CLI::App app("Lumulus renders clouds.", "lumulus");
     app.set_version_flag("--version", std::string("lumulus ") + version);

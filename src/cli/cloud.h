@@ -14,8 +14,8 @@ struct CloudOptions {
     bool quiet = false;
 };
 
-/// `lumulus cloud`: a procedural cloud as an OpenVDB file. Errors: InputError for an unknown kind or a bad place, Error
-/// where interrupted.
+/// Runs `lumulus cloud`: writes a procedural cloud as an OpenVDB file. Errors: InputError for an unknown kind or a
+/// place that cannot be written to, Error if interrupted.
 void runCloud(const CloudOptions& options);
 
 }  // namespace lumulus::cli

@@ -66,7 +66,7 @@ std::string asJson(const Comparison& c, double flip) {
     return json.dump() + "\n";
 }
 
-/// I − R, channel by channel.
+/// The difference I − R, channel by channel.
 LayeredImage difference(const LayeredImage& image, const LayeredImage& reference) {
     LayeredImage result;
     result.width = image.width;
@@ -87,7 +87,7 @@ void writeDifference(const std::filesystem::path& path, const LayeredImage& imag
     }
 }
 
-/// The mean of both, for what needs one picture of the truth.
+/// The mean of both references, for measures that need one picture.
 LayeredImage meanOf(LayeredImage a, const LayeredImage& b) {
     for (const char* name : {"R", "G", "B"}) {
         std::vector<float>& layer = a.layers.at(name);

@@ -7,14 +7,14 @@ namespace lumulus::cli {
 struct CompareOptions {
     std::filesystem::path image;
     std::filesystem::path reference;
-    std::filesystem::path secondReference;  ///< empty, or an independent one: the references' noise drops out
+    std::filesystem::path secondReference;  ///< empty, or an independent reference that removes the noise of both
     std::filesystem::path denominator;  ///< empty for the reference, or a picture that relative errors are relative to
-    std::filesystem::path diff;         ///< empty, or where the difference goes: false colours (.png), I − R (.exr)
-    double exposure = 0.0;              ///< stops, of the tone-mapped pictures that FLIP sees
+    std::filesystem::path diff;         ///< empty, or file for the difference: false colours (.png), I − R (.exr)
+    double exposure = 0.0;              ///< stops, for the tone-mapped pictures that FLIP compares
     bool json = false;
 };
 
-/// `lumulus compare`: how far a picture is from a reference. Errors: InputError for pictures that do not fit.
+/// Runs `lumulus compare`: measures the error of a picture. Errors: InputError for pictures that do not fit.
 void runCompare(const CompareOptions& options);
 
 }  // namespace lumulus::cli

@@ -21,7 +21,7 @@
 namespace lumulus::cli {
 namespace {
 
-/// Beyond it sums of light would leave the range of floats.
+/// Largest radiance; sums of larger values would leave the range of floats.
 constexpr float brightest = 1e20F;
 
 std::string layerNames(const LayeredImage& image) {
@@ -30,7 +30,7 @@ std::string layerNames(const LayeredImage& image) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// R, G, B as texels, alpha 1. What is no finite number becomes black, with a warning.
+/// R, G, B as texels with alpha 1. Values that are no finite numbers become black, with a warning.
 std::vector<glm::vec4> radianceOf(const LayeredImage& image, const std::filesystem::path& path) {
     std::vector<glm::vec4> radiance(image.pixels(), glm::vec4(1.0F));
     std::size_t bad = 0;
@@ -46,7 +46,7 @@ std::vector<glm::vec4> radianceOf(const LayeredImage& image, const std::filesyst
             radiance[i][channel] = std::isfinite(value) ? std::clamp(value, -brightest, brightest) : 0.0F;
         }
     }
-    if (bad > 0) logWarning(fmt::format("{} values of {} are no finite numbers: taken for 0", bad, path.string()));
+    if (bad > 0) logWarning(fmt::format("{} values of {} are not finite numbers and count as 0", bad, path.string()));
     return radiance;
 }
 
@@ -117,7 +117,7 @@ void runComposite(const CompositeOptions& options) {
     const Stopwatch drawing;
     if (!scene.fog.media.empty()) applyFog(color, options, scene, statistics);
     statistics.drawSeconds = drawing.seconds();
-    // depth and whatever else the file held is not what is seen through the fog
+    // depth and other layers of the file do not describe the picture through the fog
     std::erase_if(color.layers, [](const auto& layer) {
         return layer.first.size() != 1 || std::string_view("RGBA").find(layer.first) == std::string_view::npos;
     });

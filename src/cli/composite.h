@@ -17,7 +17,7 @@ struct CompositeOptions {
     bool validate = false;
 };
 
-/// `lumulus composite`: a picture of any renderer as seen through the fog of a scene. Without media it is the picture.
+/// Runs `lumulus composite`: shows a picture of any renderer through the fog of a scene, unchanged without fog media.
 /// Errors: InputError before any work for bad usage, scenes, pictures and places that cannot be written to.
 void runComposite(const CompositeOptions& options);
 

@@ -57,7 +57,7 @@ FrameQuery queryOf(const FetchOptions& options) {
     return query;
 }
 
-/// What the server finds wrong with a request is bad usage; the rest is a failure.
+/// Throws InputError for requests that the server refuses as wrong, Error for other failures.
 [[noreturn]] void rethrow(const ClientError& error, const FetchOptions& options) {
     const bool usage = error.code == "bad_request" || error.code == "not_found" || error.code == "too_large" ||
                        error.code == "unauthorized" || error.code == "no_scene";

@@ -12,8 +12,8 @@ struct FetchOptions {
     std::string address = "127.0.0.1:7788";
     std::filesystem::path tokenFile;
     std::filesystem::path output;
-    std::string scene;          ///< a name on the server, or a file here that ends with .toml and exists
-    std::filesystem::path vdb;  ///< to be uploaded, instead of the scene's cloud
+    std::string scene;          ///< a name on the server, or an existing local file that ends with .toml
+    std::filesystem::path vdb;  ///< file to upload instead of the scene's cloud
     std::vector<std::string> overrides;
     std::string quality;
     std::optional<int> width, height;
@@ -27,8 +27,8 @@ struct FetchOptions {
     double timeout = 300.0;
 };
 
-/// `lumulus fetch`: one frame of a running service, as a file. Errors: InputError for bad usage and what the server
-/// refuses as such; Error for a connection that fails.
+/// Runs `lumulus fetch`: writes one frame of a running service to a file. Errors: InputError for bad usage and for
+/// requests that the server refuses as wrong; Error if the connection fails.
 void runFetch(const FetchOptions& options);
 
 }  // namespace lumulus::cli

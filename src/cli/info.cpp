@@ -35,7 +35,7 @@ std::string devicesJson(const std::vector<gpu::DeviceInfo>& devices) {
     return dumped({{"devices", list}});
 }
 
-/// Text of a file or a driver, for people: a terminal takes no harm from it.
+/// Text of a file or a driver, made safe for a terminal.
 std::string shown(const std::string& name) {
     return shortened(oneLine(name), 300);
 }
@@ -102,7 +102,8 @@ std::string gridsText(const std::vector<vdb::GridInfo>& grids) {
 void runInfo(const InfoOptions& options) {
     const int wanted = (options.file.empty() ? 0 : 1) + (options.devices ? 1 : 0) + (options.sceneFormat ? 1 : 0);
     if (wanted != 1) {
-        throw InputError("info shows one thing", "command line", "give an OpenVDB file, --devices or --scene-format");
+        throw InputError("info needs exactly one subject", "command line",
+                         "give an OpenVDB file, --devices or --scene-format");
     }
     if (options.sceneFormat) {
         printOut(scene::sceneFormatMarkdown());

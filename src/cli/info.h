@@ -7,11 +7,11 @@ namespace lumulus::cli {
 struct InfoOptions {
     std::filesystem::path file;  ///< an OpenVDB file
     bool devices = false;
-    bool sceneFormat = false;  ///< docs/scene-format.md on stdout
+    bool sceneFormat = false;  ///< print docs/scene-format.md
     bool json = false;
 };
 
-/// `lumulus info`: grids of a file, or devices. Errors: InputError for a file that cannot be read.
+/// Runs `lumulus info`: prints the grids of a file, or the devices. Errors: InputError for an unreadable file.
 void runInfo(const InfoOptions& options);
 
 }  // namespace lumulus::cli

@@ -36,7 +36,7 @@ scene::Scene sceneOf(const ReferenceOptions& options) {
 
 void checkOptions(const ReferenceOptions& options) {
     if (options.spp.has_value() == options.seconds.has_value()) {
-        throw InputError("the reference does not know when to stop", "command line", "give either --spp or --seconds");
+        throw InputError("the reference needs one limit", "command line", "give either --spp or --seconds");
     }
     // the range of the option lets NaN through
     if (options.seconds && std::isnan(*options.seconds)) {
@@ -54,23 +54,23 @@ reference::Renderer rendererOf(const ReferenceOptions& options, const scene::Sce
     return {scene, clouds.placed(), majorant, scene.photonMap.seed};
 }
 
-/// An earlier run's film, where there is one.
+/// Continues the film of an earlier run, if there is one.
 void resume(const ReferenceOptions& options, reference::Renderer& renderer) {
     const std::filesystem::path sums = reference::sumsBeside(options.output);
-    // a first run with --resume begins; a picture without its sums is a mistake that readFilm names
+    // without any file a run with --resume begins anew; a picture without its sums is an error of readFilm
     if (std::filesystem::exists(sums) || std::filesystem::exists(options.output)) {
         renderer.resume(reference::readFilm(sums, renderer.fingerprint()));
     }
 }
 
-/// Passes until the samples or the seconds are reached, or Ctrl-C.
+/// Runs passes until the samples or the seconds are reached, or until Ctrl-C.
 void renderPasses(const ReferenceOptions& options, reference::Renderer& renderer) {
     const Clock::time_point start = Clock::now();
     const auto rows = static_cast<std::uint64_t>(renderer.film().height);
     const std::uint64_t done = renderer.film().samples;
     const std::uint64_t wanted = options.spp.value_or(0);
     if (options.spp && done >= wanted) return;
-    // progress in rows, or in milliseconds where time is the measure
+    // progress counts rows, or milliseconds if the run is limited by time
     const auto total = options.spp ? (wanted - done) * rows : static_cast<std::uint64_t>(1e3 * *options.seconds);
     std::uint64_t shown = 0;
     Progress progress("reference", total, options.quiet);
@@ -105,7 +105,7 @@ void write(const ReferenceOptions& options, const scene::Scene& scene, const ref
     image.attributes["samples"] = std::to_string(film.samples);
     image.attributes["seconds"] = fmt::format("{:.3f}", film.seconds);
     image.attributes["lost"] = std::to_string(film.lost);
-    // sums first: between the two files a run can still go on
+    // the sums come first: an interruption between the two files loses no work
     reference::writeFilm(reference::sumsBeside(options.output), film, renderer.fingerprint());
     writeExr(options.output, image);
 }
@@ -122,7 +122,8 @@ void runReference(const ReferenceOptions& options) {
     if (samples == 0) throw Error("interrupted before the first sample of every pixel", "", "nothing was written");
     write(options, scene, renderer);
     if (renderer.film().lost > 0)
-        logWarning(fmt::format("{} paths were lost: they scattered too often{}", renderer.film().lost,
+        logWarning(fmt::format("{} paths were lost: they reached the limit of scattering events{}",
+                               renderer.film().lost,
                                scene.fog.media.empty() ? "" : " (a smaller fog.sky_distance bounds the fog)"));
     if (interrupted()) logWarning(fmt::format("interrupted: the picture has {} samples per pixel", samples));
 }

@@ -11,8 +11,8 @@ namespace lumulus::cli {
 struct ReferenceOptions {
     std::filesystem::path scene;
     std::filesystem::path output;
-    std::optional<std::uint64_t> spp;  ///< samples per pixel in all, earlier runs included
-    std::optional<double> seconds;     ///< of this run; at least one sample per pixel
+    std::optional<std::uint64_t> spp;  ///< samples per pixel, earlier runs included
+    std::optional<double> seconds;     ///< time of this run; at least one sample per pixel
     bool localMajorant = false;
     bool resume = false;
     std::vector<std::string> overrides;
@@ -20,8 +20,8 @@ struct ReferenceOptions {
     bool quiet = false;
 };
 
-/// `lumulus reference`: renders without bias and writes the picture, with the exact sums beside it (`.sums`), from
-/// which a later run goes on. Errors: InputError for bad input, Error where nothing could be finished.
+/// Runs `lumulus reference`: renders without bias and writes the picture, and beside it the exact sums (`.sums`), which
+/// a later run can continue. Errors: InputError for bad input, Error if no pass was finished.
 void runReference(const ReferenceOptions& options);
 
 }  // namespace lumulus::cli

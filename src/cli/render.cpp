@@ -34,7 +34,7 @@ bool statsToFile(const RenderOptions& options) {
     return !options.stats.empty() && options.stats != "-";
 }
 
-/// Everything that can be known to fail later fails here, before the work.
+/// Checks before the work everything that could fail after it.
 void checkOutputs(const RenderOptions& options) {
     std::vector<std::filesystem::path> outputs = options.outputs;
     for (const auto& output : outputs) requireSuffix(output, {".exr", ".png"});
@@ -57,7 +57,7 @@ bool progressive(const RenderOptions& options) {
     return options.seconds || options.targetError;
 }
 
-/// Seconds that writing will take, by what it takes on one core of 2023: layers are compressed.
+/// Estimates the seconds of writing from measurements on one core of 2023. Compression takes most of them.
 double writingForecast(const RenderOptions& options, const scene::Image& image) {
     constexpr double exrPixel = 6e-7, pngPixel = 3e-7;
     double perPixel = 0.0;
@@ -84,15 +84,15 @@ ProgressiveStatistics traceProgressively(Renderer& renderer, const RenderOptions
             progressive::biasEstimate(scene, renderer.statistics().photons), reached.previewSeconds};
 }
 
-/// Says on the terminal what was reached.
+/// Prints the noise and time that were reached.
 void tellReached(const RenderOptions& options, const Statistics& statistics, const ProgressiveStatistics& reached,
                  double seconds) {
     const std::string noise = reached.noise ? fmt::format("relMSE {:.2g} of noise", *reached.noise)
                                             : std::string("too few photons to tell their noise");
     if (!options.quiet)
         logNote(fmt::format(
-            "stopped by {} after {:.2f} s: {}, {} photons in {} generations; scenes like this have a "
-            "bias of relMSE {:.2g} beside it",
+            "stopped by {} after {:.2f} s: {}, {} photons in {} generations; similar scenes also have a "
+            "bias of relMSE {:.2g}",
             reached.stop, seconds, noise, statistics.photons, statistics.generations, reached.biasEstimate));
     if (options.seconds && seconds > *options.seconds && reached.stop == "seconds" && statistics.generations <= 2)
         logWarning(fmt::format("{:g} s were too short for this scene: it took {:.2f} s with {} photons",

@@ -16,7 +16,7 @@ struct RenderOptions {
     std::optional<scene::Quality> quality;
     std::vector<std::string> overrides;
     std::optional<std::uint64_t> seed;
-    std::optional<double> seconds;      ///< for everything, instead of the scene's number of photons
+    std::optional<double> seconds;      ///< time of the whole run, instead of the scene's number of photons
     std::optional<double> targetError;  ///< relMSE of the photons' noise to stop at
     std::string device;
     std::string stats;  ///< file, "-" for stdout, empty for none
@@ -24,7 +24,7 @@ struct RenderOptions {
     bool validate = false;
 };
 
-/// `lumulus render`. Errors: InputError before any work for bad usage, scenes and places that cannot be written to.
+/// Runs `lumulus render`. Errors: InputError before any work for bad usage, bad scenes and unwritable places.
 void runRender(const RenderOptions& options);
 
 }  // namespace lumulus::cli

@@ -8,7 +8,7 @@ struct ServeOptions {
     std::filesystem::path config;
 };
 
-/// `lumulus serve`. Errors: InputError for a bad configuration, and addresses that are taken.
+/// Runs `lumulus serve`. Errors: InputError for a bad configuration and for addresses that are in use.
 void runServe(const ServeOptions& options);
 
 }  // namespace lumulus::cli

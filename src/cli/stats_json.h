@@ -8,22 +8,22 @@
 
 namespace lumulus::cli {
 
-/// Where a progressive picture stopped.
+/// Result of a progressive picture.
 struct ProgressiveStatistics {
     std::string stop;             ///< "photons", "seconds" or "target-error"
-    std::optional<double> noise;  ///< relMSE of the photons' noise, where it is known
+    std::optional<double> noise;  ///< relMSE of the photons' noise, if known
     double biasEstimate = 0.0;    ///< relMSE
     double previewSeconds = 0.0;  ///< spent on estimating the noise
 };
 
-/// What --stats writes: one JSON object and a newline. Seconds of writing and of everything come from the caller.
+/// The text for --stats: one JSON object and a newline. The caller gives the seconds of writing and of the whole run.
 std::string statisticsJson(const Statistics& statistics, const std::optional<ProgressiveStatistics>& progressive,
                            double writeSeconds, double totalSeconds);
 
-/// Writes the JSON where --stats says: a file, "-" for stdout, nowhere if empty. Errors: those of writing.
+/// Writes the JSON to the place of --stats: a file, stdout for "-", nowhere if empty. Errors: those of writing.
 void writeStatistics(const std::string& where, const std::string& json);
 
-/// What --validate asks for. Errors: Error with the first message of the validation layer, where there is one.
+/// Throws Error with the first message of the validation layer, if there is one and --validate was given.
 void requireNoMessages(bool validate, const Statistics& statistics);
 
 }  // namespace lumulus::cli

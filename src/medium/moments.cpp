@@ -39,8 +39,8 @@ std::vector<double> draineMoments(double g, double alpha, int count) {
 std::vector<double> schlickMoments(double k, int count) {
     assert(std::abs(k) < 1.0);
     const double a = std::abs(k);
-    // Q_l is the decaying solution of its recurrence, by e^−decay a step: the ratios q_l = Q_l / (k Q_l−1) are stable
-    // downwards, and a wrong start is forgotten by e^−2decay a step
+    // Q_l is the minimal solution of its recurrence and falls by a constant factor a step: the ratios q_l = Q_l / (k
+    // Q_l−1) are stable downwards, and the error of a wrong start falls by the square of that factor a step
     const double decay = std::acosh(1.0 / a);
     const auto runUp = static_cast<std::size_t>(8.0 + 20.0 / decay);
     std::vector<double> ratio(static_cast<std::size_t>(count) + runUp);

@@ -81,7 +81,7 @@ PhaseFunction::PhaseFunction(const scene::Phase& phase) : model_(phase.model) {
             lobeWidth_ = std::min(lobeWidth_, 1.0 - std::abs(g_));
             break;
         case scene::PhaseModel::schlick:
-            // k(g) = 1 at g = (√(1+4/.55)−1)/2 = .93813
+            // k(g) = 1 at g = (√(1+4/0.55)−1)/2 = 0.93813
             requireAsymmetry(phase.g, 0.938, ", or the model henyey_greenstein, which is defined beyond");
             k_ = schlickK(phase.g);
             lobeWidth_ = std::min(lobeWidth_, std::sqrt(1.0 - std::abs(k_)));

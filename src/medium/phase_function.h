@@ -21,30 +21,30 @@ DropletFit dropletFit(double diameter);
 /// Schlick's k for an asymmetry g.
 double schlickK(double g);
 
-/// A phase function in double, the measure of all its approximations: p in 1/sr with ∫ p dω = 1, a function of the
-/// angle θ between the directions of travel before and after.
+/// A phase function in double precision, against which all approximations are tested: p in 1/sr with ∫ p dω = 1, a
+/// function of the angle θ between the directions of travel before and after scattering.
 class PhaseFunction {
   public:
-    /// Errors: InputError where the parameters make no phase function: |g| ≥ 1, |g| so large that Schlick's k reaches 1
-    /// (|g| ≥ .938), a droplet outside 5 to 50 µm.
+    /// Errors: InputError for parameters without a phase function: |g| ≥ 1, |g| so large that Schlick's k reaches 1
+    /// (|g| ≥ 0.938), a droplet outside 5 to 50 µm.
     explicit PhaseFunction(const scene::Phase& phase);
 
     double evaluate(double cosTheta) const { return evaluate(1.0 - cosTheta, 1.0 + cosTheta); }
-    /// The same from 1 − cos θ, which keeps its digits in a narrow forward lobe.
+    /// Evaluates p from 1 − cos θ, which keeps its digits in a narrow forward lobe.
     double evaluateSmall(double oneMinusCos) const { return evaluate(oneMinusCos, 2.0 - oneMinusCos); }
-    /// The same from θ in [0,π], with all digits in lobes at both poles.
+    /// Evaluates p from θ in [0,π], with all digits in lobes at both poles.
     double evaluateAngle(double theta) const;
 
     /// χ_l = ∫ p P_l dω, l = 0..count−1, in closed form; χ_0 = 1, χ_1 the mean cosine.
     std::vector<double> moments(int count) const;
 
-    /// Share of light that turns by less than thetaCut [radians].
+    /// Share of light that is scattered by less than thetaCut [radians].
     double forwardFraction(double thetaCut) const;
 
     /// a_l = ∫ p P_l dω over θ < thetaCut [radians], l = 0..count−1.
     std::vector<double> forwardMoments(double thetaCut, int count) const;
 
-    /// About the angle [radians] within which p changes at its peak.
+    /// Width of the forward peak [radians]: roughly the angle within which p changes.
     double lobeWidth() const { return lobeWidth_; }
 
   private:

@@ -88,7 +88,7 @@ std::vector<double> anglePanels(double begin, double end, double finest, double 
     for (double at = begin; at < end;) {
         const double graded = std::min(std::max(finest, 0.5 * at), std::max(finest, (pi - at) / 3.0));
         const double width = std::min(graded, longest);
-        // no sliver at the end
+        // the last panel takes a short remainder too
         at = end - at < 1.25 * width ? end : at + width;
         ends.push_back(at);
     }

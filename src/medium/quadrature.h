@@ -19,9 +19,9 @@ const GaussRule& gaussRule();
 /// ∫ f over [begin,end] with one 16-point rule.
 double integratePanel(double begin, double end, const std::function<double(double)>& f);
 
-/// Ends of panels that cut the angles [begin,end] ⊂ [0,π], each good for one 16-point rule: no shorter than `finest`
-/// (the width of a lobe at either pole), growing in proportion to the distance from the poles, no longer than
-/// `longest`.
+/// Ends of panels that divide the angles [begin,end] ⊂ [0,π] so that one 16-point rule suits each panel. Panels are no
+/// shorter than `finest` (the width of a lobe at either pole), grow in proportion to the distance from the poles, and
+/// are no longer than `longest`.
 std::vector<double> anglePanels(double begin, double end, double finest, double longest);
 
 /// 2π ∫ f(θ) P_l(cos θ) sin θ dθ over [begin,end] for l = 0..count−1, for an f with lobes no narrower than `finest`

@@ -7,10 +7,10 @@
 
 namespace lumulus::phase {
 
-/// All that the GPU needs for one phase function, cut angle θc and albedo; shared/phase_table.h has the axes.
+/// All tables that the GPU needs for one phase function, cut angle θc and albedo; shared/phase_table.h has their axes.
 struct ScatteringTables {
     float forwardFraction = 0.0F;  ///< f = P(θ < θc)
-    float scatterFraction = 1.0F;  ///< 1 − f, with its own digits
+    float scatterFraction = 1.0F;  ///< 1 − f without cancellation
     /// χ'_l = b_l/(1−f), l = 0..bands−1: the moments of p restricted to θ ≥ θc.
     std::vector<float> bandMoments;
 

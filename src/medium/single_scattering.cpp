@@ -59,8 +59,8 @@ struct Weights {
     std::vector<double> k;
 };
 
-/// Ends the weights after the last that matters: those dropped are each below 3e−9 of the sum of all, and they
-/// alternate.
+/// Makes the weights and ends them after the last that matters: each dropped one is below 3e−9 of the sum of all, and
+/// their signs alternate.
 Weights makeWeights(const SingleScatteringSeries& series, double scatteringDepth) {
     const std::size_t terms = series.inside.size();
     Weights weights{std::vector<double>(terms), std::vector<double>(terms)};
@@ -82,7 +82,7 @@ Weights makeWeights(const SingleScatteringSeries& series, double scatteringDepth
     return weights;
 }
 
-/// sums += Σ weight_l P_l at all angles, for `block` terms; in one pass, so that sums are read and written once.
+/// Adds Σ weight_l P_l to the sums at all angles, for `block` terms, in one pass that reads and writes the sums once.
 void addBlock(const double* weights, const double* legendre, double* sums) {
     static_assert(block == 8);
     for (std::size_t i = 0; i < angles; ++i) {
@@ -107,7 +107,7 @@ std::vector<Sums> sumSeries(const std::vector<Weights>& weights, const std::vect
     for (const Weights& w : weights) {
         last = std::max(last, w.h.size());
     }
-    // blocks outside, so that the polynomials come from memory once for all
+    // blocks in the outer loop, so that the polynomials are read from memory once
     for (std::size_t l = 0; l < last; l += block) {
         for (std::size_t i = 0; i < weights.size(); ++i) {
             if (l < weights[i].h.size()) {
@@ -137,7 +137,7 @@ SingleScatteringSeries makeSingleScatteringSeries(const PhaseFunction& phase, do
             all += term;
             lastOctave += 2 * l >= series.inside.size() ? term : 0.0;
         }
-        // terms fall as 1/l² or faster: the rest is at most as large as the last octave
+        // terms fall as 1/l² or faster, so the rest is at most as large as the last octave
         if (lastOctave <= 1e-4 * all || terms >= mostTerms) {
             return series;
         }

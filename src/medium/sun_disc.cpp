@@ -51,7 +51,7 @@ double averageOverDisc(const PhaseFunction& phase, double theta, double radius) 
     }
     const double finest = 0.25 * phase.lobeWidth();
     double sum = 0.0;
-    // circles about the lobe, or about its opposite, that lie in the disc as a whole
+    // circles about the lobe, or about its opposite direction, that lie wholly in the disc
     const auto addWhole = [&](double begin, double end) {
         const std::vector<double> ends = anglePanels(begin, end, finest, radius);
         for (std::size_t i = 0; i + 1 < ends.size(); ++i) {

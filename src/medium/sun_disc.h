@@ -4,7 +4,7 @@
 
 #include "medium/phase_function.h"
 
-/// The sun as a uniform disc: what a lobe as narrow as the disc becomes when it is averaged over the disc.
+/// The sun as a uniform disc, and phase functions averaged over that disc.
 namespace lumulus::phase {
 
 /// Legendre moments D_l, l = 0..count−1, of a uniform disc of the given angular radius [radians], D_0 = 1; all 1 for

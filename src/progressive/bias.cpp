@@ -9,11 +9,11 @@ namespace lumulus::progressive {
 
 namespace {
 
-/// Of truncated harmonics, by bands, 1 to 8.
+/// relMSE of truncated spherical harmonics, for 1 to 8 bands.
 constexpr std::array<double, 8> truncated{0.071, 0.0073, 0.0013, 1.8e-4, 1e-4, 9e-5, 0.0, 0.0};
-/// Of cells of the light field and of leaves as large as the mean free path, with so many photons; fewer photons have
-/// larger cells, a power of which fits what was measured from 2e5 on. What the forward peak left in the walk and
-/// billboards add.
+/// relMSE of light field cells and of leaves as large as the mean free path, with `manyPhotons` photons. Fewer photons
+/// have larger cells: a power law fits the measurements from 2e5 photons on. A forward peak that is not cut off and
+/// billboards add their own share.
 constexpr double space = 0.001, manyPhotons = 8e6, growth = 0.64, withoutCut = 0.0115, billboards = 0.0115;
 
 }  // namespace

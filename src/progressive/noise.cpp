@@ -8,7 +8,7 @@ namespace lumulus::progressive {
 
 namespace {
 
-/// Places in the layers that show the cloud.
+/// Indices of the pixels that show the cloud.
 std::vector<std::size_t> cloudPixels(const Preview& preview) {
     const auto& red = preview.even.layers.at("transmittance.R");
     const auto& green = preview.even.layers.at("transmittance.G");

@@ -11,8 +11,8 @@ namespace lumulus::progressive {
 
 namespace {
 
-/// Generations after which the noise is looked at again, against those there are: a look costs about as much as one or
-/// two generations. More photons make a finer light field too, so that noise falls more slowly than one over them.
+/// Factors by which the generations grow until the noise is estimated again. An estimate costs as much as one or two
+/// generations. More photons also give a finer light field, so noise falls more slowly than 1/photons.
 constexpr double soonest = 1.3, latest = 4.0;
 
 int nextLook(int generations, double noise, const Goal& goal) {
@@ -63,7 +63,7 @@ class Run {
         renderer_.traceGeneration();
         const double seconds = elapsed_() - start;
         ++reached_.generations;
-        // the first one pays for compiling
+        // the first generation includes compilation
         each_ = reached_.generations <= 2 ? seconds : 0.7 * each_ + 0.3 * seconds;
         if (reached_.noise) *reached_.noise *= (reached_.generations - 1.0) / reached_.generations;
     }

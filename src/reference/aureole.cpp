@@ -9,12 +9,12 @@ namespace {
 
 constexpr double fourPi = 4.0 * glm::pi<double>();
 
-/// 1 − g of the widest lobe that is worth its branches, whatever the view: at .15 they save half of the time to an
+/// 1 − g of the widest lobe that is worth its branches in every view. At 0.15 branches save half of the time to an
 /// error where the camera looks away from the sun and cost three times as much where it looks towards it
-/// (docs/error-time.md).
+/// (docs/experiments/path-tracer-noise.md).
 constexpr double widest = 0.1;
 
-/// Below it rounding of directions would show.
+/// 1 − g of the narrowest lobe; in narrower ones the rounding of directions would show.
 constexpr double narrowest = 1e-9;
 
 /// 1 − g of the Henyey–Greenstein lobe with this peak [1/sr]: 4π·peak = (1+g)/(1−g)².

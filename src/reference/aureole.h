@@ -8,24 +8,24 @@
 
 namespace lumulus::reference {
 
-/// The sky around the sun as it is seen from within a cloud of a narrow phase function: bright by light that was turned
-/// by little. Paths are as unlikely to go there by chance as they are worth much once they do, so a path sends a
-/// *branch* there wherever it scatters. Its direction is drawn from a Henyey–Greenstein lobe about the sun with a peak
-/// as high as that of the phase function, but no narrower than the sun's disc.
+/// The bright sky around the sun, as it is seen from within a cloud with a narrow phase function. Paths rarely go there
+/// by chance but carry much light when they do, so a path sends a *branch* there at each scattering event. Its
+/// direction is drawn from a Henyey–Greenstein lobe about the sun with a peak as high as that of the phase function,
+/// but no narrower than the sun's disc.
 class Aureole {
   public:
-    /// Absent where the lobe would be wide: then paths find the bright directions themselves. `angularRadius` of the
-    /// sun in radians.
+    /// Makes an aureole, or nothing where the lobe is so wide that paths find the bright directions by themselves.
+    /// `angularRadius` is that of the sun in radians.
     static std::optional<Aureole> of(const PhaseFunction& phase, const glm::dvec3& sunDirection, double angularRadius);
 
-    /// Branches that a scattering sends into a direction, 1/sr: one in all.
+    /// Density of the branches of one scattering event in a direction, 1/sr; its integral is one.
     double density(const glm::dvec3& direction) const;
 
-    /// How many times more light is expected from this direction than from elsewhere: as many as the lobe exceeds its
-    /// mean over the sphere. A third of it lets fireflies through.
+    /// Expected light from this direction relative to the mean over all directions: the lobe over its mean. A third of
+    /// this value lets fireflies through.
     double importance(const glm::dvec3& direction) const;
 
-    /// The direction of a branch.
+    /// Draws the direction of a branch.
     glm::dvec3 sample(Random& random) const;
 
   private:

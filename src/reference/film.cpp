@@ -22,14 +22,14 @@ void put(const Layers& layers, std::size_t pixel, const glm::dvec3& value) {
     for (std::size_t c = 0; c < 3; ++c) layers[c][pixel] = static_cast<float>(value[static_cast<int>(c)]);
 }
 
-/// From the mean of squares and the mean of n samples. What is left of two equal numbers by rounding is no variance.
+/// Variance of the mean from the mean of squares and the mean of n samples. A difference by rounding counts as 0.
 glm::dvec3 varianceOfMean(const glm::dvec3& square, const glm::dvec3& mean, double n) {
     constexpr double rounding = 1e-13;
     const glm::dvec3 variance = square - mean * mean;
     return glm::mix(glm::dvec3(0.0), variance / (n - 1.0), glm::greaterThan(variance, rounding * square));
 }
 
-/// Of the three channels: the very number where they are the same.
+/// Mean of the three channels; exactly their value where they are equal.
 double meanOf(const glm::dvec3& rgb) {
     return rgb.x + ((rgb.y - rgb.x) + (rgb.z - rgb.x)) / 3.0;
 }

@@ -9,22 +9,22 @@
 
 namespace lumulus::reference {
 
-/// What the samples of one pixel add up to, in double. The sums are taken in the order of the samples, so that they are
-/// the same bits however the work is divided.
+/// Sums over the samples of one pixel, in double. They are taken in the order of the samples, so that their bits do not
+/// depend on how the work is divided.
 struct PixelSums {
-    glm::dvec3 scattered{0.0};      ///< radiance of all but the sky and sun directly behind
+    glm::dvec3 scattered{0.0};      ///< radiance except that of the sky and sun directly behind
     glm::dvec3 square{0.0};         ///< squares of the whole radiance
     glm::dvec3 passed{0.0};         ///< radiance of the sky directly behind, in Environment::unit
     glm::dvec3 disc{0.0};           ///< transmittance of the samples that look at the sun's disc
-    double discSamples = 0.0;       ///< how many look there
+    double discSamples = 0.0;       ///< number of those samples
     glm::dvec3 transmittance{0.0};  ///< of cloud, fog and surfaces
     double clear = 0.0;             ///< transmittance of cloud and surfaces alone
-    double distance = 0.0;          ///< to cloud and surfaces, weighted by what they hide: ∫ t T σt dt, metres
+    double distance = 0.0;          ///< to cloud and surfaces, weighted by their opacity: ∫ t T σt dt, metres
 
     bool operator==(const PixelSums&) const = default;
 };
 
-/// A picture in the making, all that is needed to go on with it.
+/// An unfinished picture with everything that is needed to continue it.
 struct Film {
     int width = 0;
     int height = 0;
@@ -36,8 +36,8 @@ struct Film {
     bool operator==(const Film&) const = default;
 };
 
-/// Transmittance and distance have no noise but that of the place within the pixel, so few samples of them are enough:
-/// those whose number, counted from 1, is a power of two.
+/// True for samples that also measure transmittance and distance: those whose number, counted from 1, is a power of
+/// two. The only noise of these quantities is the place within the pixel, so few samples are enough.
 inline bool isLineSample(std::uint64_t sample) {
     return std::has_single_bit(sample + 1);
 }
@@ -45,7 +45,7 @@ inline bool isLineSample(std::uint64_t sample) {
 /// Depth of a pixel without cloud and surface, metres.
 constexpr double farDepth = 1e10;
 
-/// The means as layers: R, G, B, A, cloud.{R,G,B} (all light but the sky and sun directly behind),
+/// The means as layers: R, G, B, A, cloud.{R,G,B} (all light except the sky and sun directly behind),
 /// transmittance.{R,G,B} (of cloud, fog and surfaces; A is 1 less their mean), depth.Z (of cloud and surfaces; fog has
 /// no depth), from two samples on variance.{R,G,B} (of the mean, not of a sample), and sun.disc, the share of the pixel
 /// that the sun's disc covers, where it is in the picture. `skyUnit` is Environment::unit and `disc` the radiance of

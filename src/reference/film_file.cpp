@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What stands before the sums. Doubles and integers as the machine keeps them: the file belongs to this machine.
+/// The header before the sums. Doubles and integers are in the machine's own format: the file belongs to this machine.
 struct Header {
     char magic[16] = "lumulus sums 2\n";
     std::uint64_t fingerprint = 0;
@@ -30,7 +30,7 @@ static_assert(std::is_trivially_copyable_v<PixelSums> && std::is_trivially_copya
 std::string contentOf(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) {
-        throw InputError("no exact sums to go on from", path.string(),
+        throw InputError("the exact sums of the picture are missing", path.string(),
                          "keep them beside the picture, or leave out --resume");
     }
     return {std::istreambuf_iterator<char>(file), {}};

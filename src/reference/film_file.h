@@ -7,13 +7,13 @@
 
 namespace lumulus::reference {
 
-/// The file beside a picture that keeps the exact sums: its name and ".sums".
+/// Name of the file beside a picture that holds the exact sums: the picture's name and ".sums".
 std::filesystem::path sumsBeside(const std::filesystem::path& picture);
 
-/// Writes the film bit by bit. `fingerprint` says what was rendered. Errors: those of writeFile.
+/// Writes the film with all bits. `fingerprint` identifies scene and settings. Errors: those of writeFile.
 void writeFilm(const std::filesystem::path& path, const Film& film, std::uint64_t fingerprint);
 
-/// Reads what writeFilm wrote. Errors: InputError for a file that is missing, damaged, or of another fingerprint.
+/// Reads a film of writeFilm. Errors: InputError for a file that is missing, damaged, or has another fingerprint.
 Film readFilm(const std::filesystem::path& path, std::uint64_t fingerprint);
 
 }  // namespace lumulus::reference

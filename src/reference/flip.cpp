@@ -142,7 +142,7 @@ Planes opponentPlanes(std::span<const std::uint8_t> rgb) {
     return planes;
 }
 
-/// What the eye resolves of the picture, in L*a*b* with Hunt's effect.
+/// The picture as far as the eye resolves it, in L*a*b* with Hunt's effect.
 std::vector<dvec3> perceived(const Planes& opponent, const Size& size, double perDegree) {
     const Plane y = filterContrast(opponent.channel[0], size, {{1.0, 0.0047}}, perDegree);
     const Plane x = filterContrast(opponent.channel[1], size, {{1.0, 0.0053}}, perDegree);
@@ -187,7 +187,7 @@ Features featuresOf(const Planes& opponent, const Size& size, double perDegree) 
     return {magnitude(lightness, size, first, smooth), magnitude(lightness, size, second, smooth)};
 }
 
-/// The colour difference compressed to 0…1: large ones, of which the eye keeps no order, share the last 5 %.
+/// The colour difference compressed to 0…1. Large differences, which the eye cannot rank, share the last 5 %.
 double colourError(double difference, double largest) {
     constexpr double exponent = 0.7, knee = 0.4, kneeValue = 0.95;
     const double d = std::pow(difference, exponent), top = std::pow(largest, exponent);

@@ -6,7 +6,7 @@
 
 namespace lumulus::reference {
 
-/// Pixels per degree of sight: a 4K screen .7 m wide, seen from .7 m (Andersson 2020).
+/// Pixels per degree of sight for a 4K screen 0.7 m wide, seen from 0.7 m (Andersson 2020).
 constexpr double flipPixelsPerDegree = 67.02;
 
 /// The difference that a person sees when flipping between two pictures, per pixel, 0 (none) to 1: LDR-FLIP (Andersson
@@ -15,7 +15,7 @@ constexpr double flipPixelsPerDegree = 67.02;
 std::vector<float> flip(std::span<const std::uint8_t> image, std::span<const std::uint8_t> reference, int width,
                         int height, double pixelsPerDegree = flipPixelsPerDegree);
 
-/// The mean of the map: what is quoted as FLIP.
+/// The mean of the map, which is the value quoted as FLIP.
 double flipMean(std::span<const float> map);
 
 }  // namespace lumulus::reference

@@ -19,8 +19,8 @@ struct FogCollision {
     std::size_t medium = 0;
 };
 
-/// The fog of a scene, all of its media together, as far as `sky_distance` around the eye. Free paths are exact: each
-/// medium's own first collision by the inverse of its integral, the nearest of them all.
+/// The fog of a scene: all media together, up to `sky_distance` from the eye. Free paths are exact: the first collision
+/// of each medium is found by the inverse of its integral, and the nearest one counts.
 ///
 /// Where extinction differs between channels, a free path is drawn for one of them, chosen by the throughput, and its
 /// density is the mean over that choice (Veach 1997, the balance heuristic): the sum of a throughput's channels never
@@ -31,21 +31,21 @@ class Fog {
 
     bool empty() const { return media_.empty(); }
 
-    /// RGB, from the ray's origin to `metres` (infinity is allowed).
+    /// RGB transmittance from the ray's origin to `metres` (infinity is allowed).
     glm::dvec3 transmittance(const Ray& ray, double metres) const;
 
     /// The first collision of light of this throughput before `limit` metres, if there is one.
     std::optional<FogCollision> collide(const Ray& ray, double limit, const glm::dvec3& throughput,
                                         Random& random) const;
 
-    /// The throughput of what came to `metres` without a collision with fog, as `collide` has drawn it.
+    /// The throughput of a path that reached `metres` without a collision with fog, as `collide` has drawn it.
     glm::dvec3 passed(const Ray& ray, double metres, const glm::dvec3& throughput) const;
 
     /// The throughput after the collision, absorption included.
     glm::dvec3 scattered(const Ray& ray, const FogCollision& collision, const glm::dvec3& throughput) const;
 
-    /// An estimate of what the fog emits towards the ray's origin, W·m⁻²·sr⁻¹: `metres` is where a path ended that
-    /// `collide` drew, or anything nearer stopped.
+    /// Estimates the radiance that the fog emits towards the ray's origin, W·m⁻²·sr⁻¹. `metres` is the end of a path
+    /// that `collide` drew, or a nearer place where something stopped it.
     glm::dvec3 emitted(const Ray& ray, double metres, const glm::dvec3& throughput, Random& random) const;
 
     const PhaseFunction& phase(std::size_t medium) const { return media_[medium].phase; }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Paths beyond are all the same: nothing passes. Sums of them over media stay finite.
+/// Longest path. Nothing passes along longer ones, and sums over media stay finite.
 constexpr double longestPath = 1e200;
 
 /// (1 − e^{−x})/x for x ≥ 0.

@@ -5,17 +5,17 @@
 
 namespace lumulus::reference {
 
-/// The relative density ϱ of one analytic medium of fog along one ray, within a part of it: its integral P(t) in metres
-/// and the inverse of that. All of it in closed form, in double: nothing is stepped through.
+/// The relative density ϱ of one fog medium along a part of one ray: its integral P(t) in metres and the inverse of the
+/// integral, both in closed form and double precision.
 class FogDensity {
   public:
-    /// `part`: where on the ray the fog is at all. The ray's direction is a unit vector.
+    /// `part` is the part of the ray that has fog. The ray's direction is a unit vector.
     FogDensity(const scene::FogMedium& medium, const Ray& ray, const Interval& part);
 
     /// ∫ ϱ from the ray's origin to `metres`; at most 1e200.
     double pathTo(double metres) const;
 
-    /// Metres at which the integral reaches `path`; infinity where it never does.
+    /// Metres at which the integral reaches `path`; infinity if it never does.
     double metresTo(double path) const;
 
   private:

@@ -29,7 +29,7 @@ Lamps::Lamps(const std::vector<scene::Surface>& surfaces) {
     }
 }
 
-/// From within, a lamp is met by chance alone.
+/// Weight of the lamp in the choice. It is 0 inside the lamp, which paths meet by chance alone.
 double Lamps::Lamp::weightAt(const glm::dvec3& point) const {
     const glm::dvec3 way = middle - point;
     const double square = glm::dot(way, way);

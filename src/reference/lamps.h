@@ -17,7 +17,7 @@ struct LampSample {
     double density = 0.0;  ///< of this direction in the choice of all lamps, 1/sr
 };
 
-/// The spheres of a scene that give off light, as something to aim at: small ones are hardly met by chance. A lamp is
+/// The emitting spheres of a scene as light sources to aim at, since small ones are hardly met by chance. A lamp is
 /// chosen by its light over the square of its distance, then a direction within its cone.
 class Lamps {
   public:
@@ -27,7 +27,7 @@ class Lamps {
 
     std::optional<LampSample> sample(const glm::dvec3& point, Random& random) const;
 
-    /// Density with which `sample` gives a direction in which the lamp `surface` is seen, 1/sr; 0 for what is no lamp.
+    /// Density with which `sample` draws a direction to the lamp `surface`, 1/sr; 0 if the surface is no lamp.
     double density(const glm::dvec3& point, std::size_t surface) const;
 
   private:

@@ -11,7 +11,7 @@
 
 namespace lumulus::reference {
 
-/// A ray in voxel coordinates; `step` is the way of one metre in the world.
+/// A ray in voxel coordinates; `step` is the distance that corresponds to one metre in the world.
 struct VoxelRay {
     glm::dvec3 origin{0.0};
     glm::dvec3 step{0.0};
@@ -25,8 +25,8 @@ struct Interval {
     double end = 0.0;
 };
 
-/// The density field as the reference reads it: the voxels' own floats, trilinear between voxel centres, zero outside
-/// the box. Voxel coordinates are those of vdb::Volume.
+/// The density field of the reference: the floats of the voxels, trilinear between voxel centres, zero outside of the
+/// box. Voxel coordinates are those of vdb::Volume.
 class Medium {
   public:
     /// `extinction` [1/m] at density 1.
@@ -44,11 +44,11 @@ class Medium {
     double density(const glm::dvec3& p) const;
 
     glm::dvec3 toVoxel(const glm::dvec3& world) const { return toVoxel_ * (world - translation_); }
-    /// The way of a unit vector of the world.
+    /// A vector of the world in voxel coordinates.
     glm::dvec3 stepOf(const glm::dvec3& direction) const { return toVoxel_ * direction; }
     VoxelRay toVoxel(const Ray& ray) const { return {toVoxel(ray.origin), stepOf(ray.direction)}; }
 
-    /// The part of the ray within the box, from metre 0 on; absent where it misses.
+    /// The part of the ray within the box, from metre 0 on; absent if the ray misses the box.
     std::optional<Interval> clip(const VoxelRay& ray) const;
 
   private:
@@ -106,7 +106,7 @@ struct LineIntegrals {
 /// Integrals along a ray through media whose pieces are given, each list in order. Media that overlap add up.
 LineIntegrals integrateAlong(std::span<const std::vector<OpticalPiece>> media);
 
-/// Metres from the ray's origin to where it first meets a density above 0; absent where it meets none.
+/// Metres from the ray's origin to the first point with density; absent if there is none.
 std::optional<double> frontAlong(const Medium& medium, const VoxelRay& ray);
 
 }  // namespace lumulus::reference

@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<const char*, 3> channels{"R", "G", "B"};
 constexpr double relativeFloor = 0.01;  ///< of mean(D)², and of mean(D) for MAPE
 
-/// A layer's value as double, or what stands for it where there is no such layer.
+/// A layer's values as double, or a constant if there is no such layer.
 class Layer {
   public:
     Layer(const LayeredImage& image, const std::string& name) {
@@ -113,7 +113,7 @@ struct Point {
     }
 };
 
-/// Against a black reference nothing is 0 and everything else infinite.
+/// A relative value. With a black reference it is 0 for no difference and infinite for any other.
 double ratio(double value, double scale) {
     return value == 0.0 ? 0.0 : value / scale;
 }
@@ -203,7 +203,7 @@ Comparison compareAll(const LayeredImage& image, const LayeredImage& a, const La
     return result;
 }
 
-/// Refuses what arithmetic would spread over the whole result.
+/// Refuses NaN and infinity, which would spread over the whole result.
 void requireNumbers(const NamedImage& named) {
     std::vector<std::string> used{"sun.disc"};
     for (const char* channel : channels) {

@@ -8,17 +8,17 @@
 
 namespace lumulus::reference {
 
-/// An error measure and, where variance layers say how noisy the pictures are, its standard error.
+/// An error measure and, if variance layers tell the noise of the pictures, its standard error.
 struct Measure {
     double value = 0.0;
     std::optional<double> standardError;
 };
 
-/// How far a picture I is from a reference R: over pixels and channels R, G, B where the reference's transmittance is
-/// below .999 and its layer sun.disc 0 (everywhere where it has no such layers); d = I − R, in radiance. D is the
-/// picture of the denominators: R, or a picture with less noise.
+/// The difference d = I − R in radiance between a picture I and a reference R, over the pixels where the reference's
+/// transmittance is below 0.999 and its layer sun.disc is 0 (all pixels if it has no such layers); channels R, G, B. D
+/// is the picture of the denominators: R, or a picture with less noise.
 struct Comparison {
-    std::size_t pixels = 0;  ///< that were compared
+    std::size_t pixels = 0;  ///< number of compared pixels
     double meanReference = 0.0;
     Measure rmse;          ///< √ mean d²
     Measure relMse;        ///< mean d² / (D² + .01·mean(D)²)
@@ -29,25 +29,25 @@ struct Comparison {
     std::optional<double> imageNoise, referenceNoise;
 };
 
-/// A picture and what to call it in messages.
+/// A picture and its name in messages.
 struct NamedImage {
     const LayeredImage& image;
     std::string name;
 };
 
-/// Errors: InputError where a picture has no layers R, G, B, where a layer that is used holds NaN or infinity, or a
-/// variance below 0 (it says which layer and where), and where sizes differ.
+/// Checks that two pictures can be compared. Errors: InputError if a picture has no layers R, G, B, if a layer holds
+/// NaN, infinity or a negative variance (the message names layer and pixel), or if sizes differ.
 void requireComparable(const NamedImage& image, const NamedImage& reference);
 
-/// The measures against one reference. Standard errors take pixels as independent and the channels of a pixel as fully
-/// correlated (one path carries all three), which is on the safe side. The pictures have passed requireComparable.
-/// `denominator`, where it is given, is D, and its transmittance instead of the reference's says which pixels count:
-/// references of few samples have noise in both, so that relMSE would depend on their number of samples.
-/// Errors: InputError where no pixel is left to compare.
+/// Compares a picture with one reference. Standard errors take pixels as independent and the channels of a pixel as
+/// fully correlated (one path carries all three), which is on the safe side. The pictures have passed
+/// requireComparable. `denominator`, where it is given, is D, and its transmittance instead of the reference's says
+/// which pixels count: references of few samples have noise in both, so that relMSE would depend on their number of
+/// samples. Errors: InputError if no pixel is left to compare.
 Comparison compare(const LayeredImage& image, const LayeredImage& reference, const LayeredImage* denominator = nullptr);
 
-/// The same against two independent references A and B of the same scene: (I−A)(I−B) takes the place of d², which frees
-/// rmse and relMse of the references' noise (they may come out negative by chance; rmse is 0 then); R = (A+B)/2.
+/// Compares a picture with two independent references A and B of the same scene: (I−A)(I−B) replaces d², which frees
+/// rmse and relMse of the references' noise (relMse may be negative by chance; rmse is 0 then); R = (A+B)/2.
 Comparison compare(const LayeredImage& image, const LayeredImage& referenceA, const LayeredImage& referenceB,
                    const LayeredImage* denominator = nullptr);
 

@@ -86,7 +86,7 @@ PhaseFunction::PhaseFunction(const scene::Phase& phase) : model_(phase.model), g
         }
     }
     if (!(std::abs(g_) < 1.0)) {
-        throw InputError("the phase function is a spike", "cloud.phase.g", "give a |g| nearer to 0");
+        throw InputError("the peak of the phase function is too narrow", "cloud.phase.g", "give a |g| nearer to 0");
     }
 }
 
@@ -145,7 +145,7 @@ glm::dvec3 turned(const glm::dvec3& direction, double oneMinusCos, Random& rando
     const glm::dvec3 tangent(1.0 + sign * direction.x * direction.x * a, sign * b, -sign * direction.x);
     const glm::dvec3 bitangent(b, sign + direction.y * direction.y * a, -direction.y);
     const glm::dvec3 result = (1.0 - oneMinusCos) * direction + (across * tangent + along * bitangent);
-    // one Newton step keeps the length at 1 over any number of turns
+    // one Newton step keeps the length at 1 over any number of scattering events
     return result * (1.5 - 0.5 * glm::dot(result, result));
 }
 

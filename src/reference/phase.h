@@ -13,17 +13,17 @@ inline double oneMinusCosBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return 0.5 * glm::dot(difference, difference);
 }
 
-/// A phase function of its own for the reference, in double: p in 1/sr, ∫ p dω = 1, of the angle between the directions
-/// of travel before and after, carried as 1 − cos θ. All samplers are exact (pdf = p).
+/// The reference's own phase functions, in double: p in 1/sr with ∫ p dω = 1, as a function of the angle between the
+/// directions of travel before and after scattering, given as 1 − cos θ. All samplers are exact (pdf = p).
 class PhaseFunction {
   public:
-    /// Errors: InputError where the parameters make no phase function.
+    /// Errors: InputError for parameters without a phase function.
     explicit PhaseFunction(const scene::Phase& phase);
 
-    /// p [1/sr].
+    /// Value of p [1/sr].
     double evaluate(double oneMinusCos) const;
 
-    /// 1 − cos θ of a scattering, in [0, 2].
+    /// Draws 1 − cos θ of a scattering event, in [0, 2].
     double sample(Random& random) const;
 
   private:
@@ -35,7 +35,7 @@ class PhaseFunction {
     double draineShare_ = 0.0;
 };
 
-/// The unit vector at an angle from `direction`, 1 − cos of which is given, with a random azimuth.
+/// The unit vector at an angle θ from `direction`, given as 1 − cos θ, with a random azimuth.
 glm::dvec3 turned(const glm::dvec3& direction, double oneMinusCos, Random& random);
 
 }  // namespace lumulus::reference

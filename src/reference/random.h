@@ -7,8 +7,8 @@
 
 namespace lumulus::reference {
 
-/// Random numbers of one path: xoshiro256++ (Blackman and Vigna 2021), seeded by splitmix64 from a key, so that a
-/// path's numbers depend on its key alone and never on threads or the order of work.
+/// Random numbers of one path: xoshiro256++ (Blackman and Vigna 2021), seeded by splitmix64 from a key. The numbers of
+/// a path depend on its key alone, not on threads or the order of work.
 class Random {
   public:
     Random(std::uint64_t seed, std::uint64_t stream, std::uint64_t path) {
@@ -25,7 +25,7 @@ class Random {
     /// In (0, 1].
     double uniformAboveZero() { return static_cast<double>((next() >> 11U) + 1) * 0x1p-53; }
 
-    /// Exponential with mean 1: an optical depth up to a collision.
+    /// Exponential with mean 1: the optical depth up to a collision.
     double exponential() { return -std::log(uniformAboveZero()); }
 
   private:

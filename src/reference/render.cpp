@@ -116,7 +116,7 @@ Renderer::Sample Renderer::sample(int x, int y) const {
 }
 
 bool Renderer::pass(const Continue& goOn) {
-    // bands of about this many paths: under a second between two questions whether to stop, and some in dense fog
+    // bands of about this many paths take less than a second, in dense fog some seconds, until an interrupt is noticed
     const int bandPaths = tracer_.hasFog() ? 1 << 12 : 1 << 15;
     const int rows = std::clamp(bandPaths / film_.width, 1, film_.height);
     for (int begin = 0; begin < film_.height; begin += rows) {

@@ -9,7 +9,7 @@
 
 namespace lumulus::reference {
 
-/// Renders a scene without bias, a sample of every pixel at a time.
+/// Renders a scene without bias, one sample of every pixel at a time.
 class Renderer {
   public:
     /// Called between bands of rows with the number of rows done since the last call; false stops the pass.
@@ -20,20 +20,20 @@ class Renderer {
     Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
              std::uint64_t seed);
 
-    /// One more sample of every pixel, at a random point of the pixel (a box filter), on all threads of TBB. A pass
-    /// that is stopped leaves the film as it was, and returns false.
+    /// Adds a sample to every pixel, at a random point of the pixel (a box filter), on all threads of TBB. A pass that
+    /// is stopped leaves the film as it was and returns false.
     bool pass(const Continue& goOn);
 
     const Film& film() const { return film_; }
-    /// Goes on from a film of the same fingerprint.
+    /// Continues a film of the same fingerprint.
     void resume(Film film);
-    /// Counts time spent on the film, for its record.
+    /// Adds time that was spent on the film.
     void addSeconds(double seconds) { film_.seconds += seconds; }
-    /// Of everything that the film depends on.
+    /// Hash of everything that the film depends on.
     std::uint64_t fingerprint() const { return fingerprint_; }
 
-    /// The layers of the film (at least one sample), and depth.front: metres along the ray through the pixel's middle
-    /// to the nearest point where there is cloud or a surface, farDepth where there is none.
+    /// The layers of the film (one sample at least) and depth.front: metres along the ray through the pixel's middle to
+    /// the nearest point of cloud or surface, farDepth if there is none.
     LayeredImage picture() const;
 
   private:
@@ -51,7 +51,7 @@ class Renderer {
     std::uint64_t seed_;
     std::uint64_t fingerprint_;
     Film film_;
-    std::vector<Sample> pass_;  ///< of the pass under way
+    std::vector<Sample> pass_;  ///< samples of the current pass
 };
 
 }  // namespace lumulus::reference

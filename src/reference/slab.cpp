@@ -13,7 +13,7 @@
 namespace lumulus::reference {
 namespace {
 
-/// What becomes of one photon that collides: shares of its weight.
+/// The fate of one photon that collides, as shares of its weight.
 struct Fate {
     double reflected = 0.0;
     double transmitted = 0.0;
@@ -99,7 +99,7 @@ SlabResult solveSlab(const Slab& slab) {
     const double collided = -std::expm1(-slab.tau / slab.mu0);
     constexpr std::uint64_t chunk = 4096;
     const std::uint64_t chunks = (slab.photons + chunk - 1) / chunk;
-    // so many at once that threads have work, and so few that Ctrl-C does not wait
+    // enough at once to keep threads busy, and few enough that Ctrl-C does not wait
     std::array<Sums, 64> block;
     Sums sums;
     for (std::uint64_t begin = 0; begin < chunks; begin += block.size()) {

@@ -30,8 +30,8 @@ struct SlabResult {
     Estimate absorbed;
 };
 
-/// Traces photons through the layer. All of them collide at least once; the rest is the direct transmission. The same
-/// seed gives the same bits on any number of threads. Errors: InputError for values out of range, Error where
+/// Traces photons through the layer. Every photon collides at least once; direct transmission is computed exactly. The
+/// same seed gives the same bits on any number of threads. Errors: InputError for values out of range, Error if
 /// interrupted.
 SlabResult solveSlab(const Slab& slab);
 

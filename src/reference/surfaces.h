@@ -11,14 +11,14 @@
 
 namespace lumulus::reference {
 
-/// What a ray meets first.
+/// The first surface on a ray.
 struct SurfaceHit {
     double metres = 0.0;
     std::size_t surface = 0;
 };
 
-/// The opaque things of a scene. They are known by their index, so that a ray which leaves one does not meet it again
-/// by rounding: no distance is too small to count.
+/// The opaque surfaces of a scene. A ray that leaves a surface knows the surface's index, so that it does not meet it
+/// again by rounding and no smallest distance is needed.
 class Surfaces {
   public:
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
@@ -28,10 +28,10 @@ class Surfaces {
     bool empty() const { return surfaces_.empty(); }
     const scene::Surface& operator[](std::size_t surface) const { return surfaces_[surface]; }
 
-    /// The nearest one in front of the ray's origin, which lies on the surface `from` (or on none).
+    /// The nearest surface in front of the ray's origin, which lies on the surface `from` (or on none).
     std::optional<SurfaceHit> nearest(const Ray& ray, std::size_t from) const;
 
-    /// True where the ray meets any.
+    /// True if the ray meets any surface.
     bool block(const Ray& ray, std::size_t from) const { return !surfaces_.empty() && nearest(ray, from).has_value(); }
 
     /// The unit normal at a point of the surface, on the side that `direction` comes from.

@@ -8,15 +8,15 @@
 namespace lumulus::reference {
 namespace {
 
-/// A path that scatters more often is counted as lost: far beyond what any sane scene needs.
+/// Collisions after which a path counts as lost, far more than any sane scene needs.
 constexpr int collisionLimit = 100'000'000;
 
-/// The same in fog, which may reach to the sky and absorb nothing: light that went so far astray is a share of some
-/// 1e-3 where visibility is a hundredth of the way to the sky, and more in fog that no tracer sees the end of.
+/// Collisions in fog after which a path counts as lost. Fog may reach to the sky and absorb nothing. The lost light is
+/// a share of some 1e-3 where visibility is a hundredth of the distance to the sky, and more in denser fog.
 constexpr int fogCollisionLimit = 100'000;
 
-/// [1/sr] Below this product of throughput, phase function and transmittance a shadow ray plays Russian roulette: most
-/// light of a forward lobe comes with few of them. Best on the Disney cloud between .02 and .1.
+/// Product of throughput, phase function and transmittance [1/sr] below which a shadow ray plays Russian roulette: few
+/// rays carry most of the light of a forward lobe. Values between 0.02 and 0.1 are best in the Disney cloud.
 constexpr double shadowThreshold = 0.05;
 
 double largest(const glm::dvec3& v) {
@@ -75,8 +75,8 @@ void PathTracer::arrive(Vertex& vertex, const Event& event) const {
     }
 }
 
-/// The way through the fog to the event: emission on it, and what is left of the throughput at its end (after a
-/// collision with fog, of what that scatters). Returns the share that a collision leaves, 1 without.
+/// Follows the path through the fog to the event: adds emission and updates the throughput (after a collision with fog,
+/// to the scattered part). Returns the share of the light that a collision leaves, 1 without a collision.
 double PathTracer::crossFog(const Vertex& vertex, const Event& event, glm::dvec3& radiance, glm::dvec3& throughput,
                             Random& random) const {
     radiance += fog_.emitted(vertex.ray, event.metres, throughput, random);
@@ -90,7 +90,8 @@ double PathTracer::crossFog(const Vertex& vertex, const Event& event, glm::dvec3
     return share;
 }
 
-/// What is left after a collision with cloud or surface, and the share that this is of the brightest colour.
+/// Updates the throughput after a collision with cloud or surface. Returns the remaining share of the brightest
+/// channel.
 double PathTracer::scatter(const Vertex& vertex, glm::dvec3& throughput) const {
     const bool atSurface = vertex.place == Place::surface;
     const glm::dvec3& albedo = atSurface ? surfaces_[vertex.index].albedo : clouds_.albedo(vertex.index);
@@ -103,14 +104,14 @@ const PhaseFunction& PathTracer::phaseAt(const Vertex& vertex) const {
     return vertex.place == Place::fog ? fog_.phase(vertex.index) : clouds_.phase(vertex.index);
 }
 
-/// Where the path goes on to by chance: drawn by the phase function, or the cosine of a diffuse surface.
+/// Draws the next direction of the path from the phase function, or from the cosine of a diffuse surface.
 glm::dvec3 PathTracer::turn(const Vertex& vertex, Random& random) const {
     if (vertex.place == Place::surface) return turned(vertex.normal, 1.0 - std::sqrt(random.uniform()), random);
     return turned(vertex.arrived, phaseAt(vertex).sample(random), random);
 }
 
-/// Share of light that goes on along the path, 1/sr: a phase function, or cosine over π. It is also the density with
-/// which `turn` draws that direction.
+/// Share of light from `toLight` that goes on along the path, 1/sr: the phase function, or the cosine over π. It is
+/// also the density with which the function above draws that direction.
 double PathTracer::response(const Vertex& vertex, const glm::dvec3& toLight) const {
     if (vertex.place == Place::surface) {
         return std::max(0.0, glm::dot(vertex.normal, toLight)) * glm::one_over_pi<double>();
@@ -118,14 +119,14 @@ double PathTracer::response(const Vertex& vertex, const glm::dvec3& toLight) con
     return phaseAt(vertex).evaluate(oneMinusCosBetween(vertex.arrived, toLight));
 }
 
-/// Paths that go on from the vertex into a direction, 1/sr: by chance, and as branches to the aureole.
+/// Density of paths that leave the vertex in a direction, 1/sr: by chance, and as branches to the aureole.
 double PathTracer::density(const Vertex& vertex, const glm::dvec3& direction) const {
     return response(vertex, direction) + (aureole_ ? aureole_->density(direction) : 0.0);
 }
 
-/// Turns the path into a direction that was drawn by chance or as a branch. Both share what is scattered there by the
-/// balance heuristic, so that weights never grow; where more paths go than light is expected from, Russian roulette
-/// thins them out to weights of one over the importance. False where the path ends.
+/// Continues the path in a direction that was drawn by chance or as a branch. Both kinds share the scattered light by
+/// the balance heuristic, so that weights never grow. Where more paths go than light is expected from, Russian roulette
+/// thins them out to weights of one over the importance. Returns false if the path ends.
 bool PathTracer::head(Path& path, const glm::dvec3& direction, Random& random) const {
     Vertex& vertex = path.vertex;
     if (aureole_) {
@@ -138,13 +139,13 @@ bool PathTracer::head(Path& path, const glm::dvec3& direction, Random& random) c
     return true;
 }
 
-/// Sends a branch of the path, which has scattered, to the aureole.
+/// Sends a branch of the path to the aureole after a scattering event.
 void PathTracer::branch(const Path& path, std::vector<Path>& branches, Random& random) const {
     Path other = path;
     if (head(other, aureole_->sample(random), random)) branches.push_back(std::move(other));
 }
 
-/// What the surface gives off that a path from `vertex` meets by chance, less the share of `lampLight`.
+/// Emission of a surface that a path from `vertex` meets by chance, without the share that `lampLight` covers.
 glm::dvec3 PathTracer::emissionAt(const Vertex& vertex, const Event& event) const {
     const glm::dvec3& emission = surfaces_[event.index].emission;
     if (lamps_.empty() || vertex.place == Place::eye) return emission;
@@ -153,7 +154,7 @@ glm::dvec3 PathTracer::emissionAt(const Vertex& vertex, const Event& event) cons
     return chance > 0.0 ? emission * (chance / (chance + aimed)) : glm::dvec3(0.0);
 }
 
-/// Light of a lamp that is aimed at, on its way to the vertex and on along the path.
+/// Light of a chosen lamp that reaches the vertex and goes on along the path.
 glm::dvec3 PathTracer::lampLight(const Vertex& vertex, Random& random) const {
     const glm::dvec3& point = vertex.ray.origin;
     const std::optional<LampSample> lamp = lamps_.sample(point, random);
@@ -170,8 +171,8 @@ glm::dvec3 PathTracer::lampLight(const Vertex& vertex, Random& random) const {
     return light;
 }
 
-/// What the sun's disc adds to a path from `vertex` that escapes into it by chance, less the share of
-/// `sunTransmission`.
+/// Light of the sun's disc for a path from `vertex` that escapes into it by chance, without the share that
+/// `sunTransmission` covers.
 glm::dvec3 PathTracer::sunByChance(const Vertex& vertex) const {
     const glm::dvec3 disc = environment_.discRadiance(vertex.ray.origin, vertex.ray.direction);
     if (largest(disc) == 0.0) return disc;
@@ -179,8 +180,8 @@ glm::dvec3 PathTracer::sunByChance(const Vertex& vertex) const {
     return disc * (expected / (1.0 + expected));
 }
 
-/// Share of the sun's fluence that goes on along the path, 1/sr, by a shadow ray to a point of the disc: less the share
-/// of `sunByChance`. A point-like sun is met by no chance, and the shadow ray has all of it.
+/// Share of the sun's fluence that goes on along the path, 1/sr, by a shadow ray to a point of the disc, without the
+/// share that `sunByChance` covers. No path meets a point-like sun by chance, so the shadow ray has all of its light.
 glm::dvec3 PathTracer::sunTransmission(const Vertex& vertex, double strength, Random& random) const {
     const glm::dvec3 toSun = environment_.sampleSun(random);
     const double expected = density(vertex, toSun) * glm::two_pi<double>() * environment_.sunCone();
@@ -198,7 +199,8 @@ glm::dvec3 PathTracer::sunTransmission(const Vertex& vertex, double strength, Ra
     return light * fog_.transmittance(shadow, std::numeric_limits<double>::infinity());
 }
 
-/// To the next event and beyond it: light that is met there is added to the sample. False where the path ends.
+/// Follows the path to its next event, adds the light there to the sample, and continues. Returns false if the path
+/// ends.
 bool PathTracer::step(Path& path, PathSample& sample, std::vector<Path>& branches, Random& random) const {
     auto& [vertex, throughput] = path;
     const Event event = nextEvent(vertex, throughput, random);
@@ -221,7 +223,7 @@ bool PathTracer::step(Path& path, PathSample& sample, std::vector<Path>& branche
     }
     if (!lamps_.empty()) sample.radiance += throughput * lampLight(vertex, random);
     if (aureole_) branch(path, branches, random);
-    // what is absorbed ends the path, but not before the light that the collision itself gets
+    // absorption ends the path only after the light of the collision itself was added
     return survives(throughput, share, random) && head(path, turn(vertex, random), random);
 }
 

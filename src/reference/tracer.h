@@ -20,12 +20,12 @@ namespace lumulus::reference {
 
 /// One path from the eye.
 struct PathSample {
-    glm::dvec3 radiance{0.0};  ///< of light from anything but the sky and sun directly behind, W·m⁻²·sr⁻¹
+    glm::dvec3 radiance{0.0};  ///< of all light except the sky and sun directly behind, W·m⁻²·sr⁻¹
     glm::dvec3 passed{0.0};    ///< of the sky directly behind, where the path met nothing; in Environment::unit
     bool lost = false;         ///< ended by the limit of collisions
 };
 
-/// What a ray meets, without noise.
+/// Integrals along a ray, without noise.
 struct RayIntegrals {
     glm::dvec3 transmittance{1.0};  ///< of everything: clouds, fog and surfaces
     double clear = 1.0;             ///< transmittance of clouds and surfaces alone
@@ -49,7 +49,7 @@ class PathTracer {
 
     RayIntegrals integrate(const Ray& ray) const;
 
-    /// Metres to the nearest point of the ray where there is cloud or a surface; absent where there is none.
+    /// Metres to the nearest point of cloud or surface on the ray; absent if there is none.
     std::optional<double> front(const Ray& ray) const;
 
     const Environment& environment() const { return environment_; }
@@ -58,7 +58,7 @@ class PathTracer {
   private:
     enum class Place { eye, cloud, fog, surface, sky };
 
-    /// Where a path goes on from.
+    /// A point from which a path goes on.
     struct Vertex {
         Place place = Place::eye;
         std::size_t index = Surfaces::none;  ///< of the surface, the cloud, or the fog's medium
@@ -70,13 +70,13 @@ class PathTracer {
         std::size_t surface() const { return place == Place::surface ? index : Surfaces::none; }
     };
 
-    /// A path on its way.
+    /// An unfinished path.
     struct Path {
         Vertex vertex;
         glm::dvec3 throughput{1.0};
     };
 
-    /// What a path meets next; infinitely far where that is the sky.
+    /// The next event of a path; infinitely far if that is the sky.
     struct Event {
         Place place = Place::sky;
         double metres = std::numeric_limits<double>::infinity();
@@ -107,7 +107,7 @@ class PathTracer {
     Fog fog_;
     Surfaces surfaces_;
     Lamps lamps_;
-    bool inscattering_;  ///< the fog scatters light that comes to it straight from sun and sky
+    bool inscattering_;  ///< the fog scatters light straight from sun and sky
 };
 
 }  // namespace lumulus::reference

@@ -21,10 +21,6 @@ const scene::Scene& drawable(const scene::Scene& scene) {
         throw InputError("surfaces are for the reference alone", scene.source + ", surface",
                          "use lumulus reference, or leave them out: --set surface=[]");
     }
-    if (scene.clouds.size() > 1) {
-        throw InputError("several clouds are for the reference alone", scene.source + ", cloud.1",
-                         "use lumulus reference, or leave out all clouds but one");
-    }
     return scene;
 }
 

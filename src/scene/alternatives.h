@@ -8,7 +8,7 @@
 
 namespace lumulus::scene {
 
-/// Names of keys, in the same section, of which only one may be given.
+/// Pairs of keys of the same section of which only one may be given.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 5> alternatives{{
     {"sun.direction_to", "sun.azimuth"},
     {"sun.direction_to", "sun.elevation"},

@@ -7,10 +7,10 @@
 
 namespace lumulus::scene {
 
-/// A section that stands in two brackets, once for each entry.
+/// A section in two brackets that may be repeated, once for each entry.
 struct ArraySection {
     std::string_view name;   ///< "fog.media", as in the names of keys
-    std::string_view entry;  ///< what one entry is called in messages
+    std::string_view entry;  ///< name of one entry in messages
     std::string_view plural;
     std::size_t most;     ///< entries of a scene
     std::size_t implied;  ///< entries of a scene that says nothing of them

@@ -4,7 +4,7 @@
 
 namespace lumulus::scene {
 
-/// docs/scene-format.md, made from the table of keys.
+/// The text of docs/scene-format.md, made from the table of keys.
 std::string sceneFormatMarkdown();
 
 }  // namespace lumulus::scene

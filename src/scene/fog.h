@@ -8,7 +8,7 @@ namespace lumulus::scene {
 
 enum class MediumKind { homogeneous, exponential, sphere };
 
-/// Coefficients are those where the relative density ϱ is 1.
+/// An analytic medium. Its coefficients hold where the relative density ϱ is 1.
 struct FogMedium {
     MediumKind kind = MediumKind::homogeneous;
     glm::dvec3 scattering{0.0};           ///< 1/m, RGB
@@ -30,17 +30,17 @@ enum class FogDepth { distance, planar, zbuffer };
 
 struct Fog {
     FogFilter filter = FogFilter::scatter;
-    int filterSize = 4;  ///< taps across of the filter between levels: 2, 4 or 6
+    int filterSize = 4;  ///< width in taps of the filter between levels: 2, 4 or 6
     FogFetch fetch = FogFetch::linearBicubic;
-    int depthLookups = 2;                 ///< masked: how often the level is looked up in the depth chain
-    double separationLuminance = 3.0;     ///< masked: light is separated above it, W/(m² sr)
-    double separationSpread = 0.05;       ///< masked: and below this spread, share of the picture's height
+    int depthLookups = 2;                 ///< masked: number of look-ups of the level in the depth chain
+    double separationLuminance = 3.0;     ///< masked: luminance above which light is separated, W/(m² sr)
+    double separationSpread = 0.05;       ///< masked: largest spread of separated light, share of the height
     double separation = 1.0;              ///< masked: strength of the separation of bright near pixels
     double separationLevel = 0.7;         ///< masked: share of the level at which separated pixels are read
-    double skyDistance = 1e5;             ///< metres: fog ends there
-    bool inscattering = true;             ///< reference: light straight from sun and sky is scattered too
-    FogDepth depth = FogDepth::distance;  ///< what the depth file of `lumulus composite` holds
-    double near = 0.1, far = 1000.0;      ///< metres, of a z-buffer
+    double skyDistance = 1e5;             ///< metres from the eye at which the fog ends
+    bool inscattering = true;             ///< reference: fog also scatters light that comes straight from sun and sky
+    FogDepth depth = FogDepth::distance;  ///< meaning of the depth file of `lumulus composite`
+    double near = 0.1, far = 1000.0;      ///< metres: range of a z-buffer
     std::vector<FogMedium> media;         ///< empty: no fog
 
     bool operator==(const Fog&) const = default;

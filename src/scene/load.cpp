@@ -31,7 +31,7 @@ std::string readSceneText(const std::filesystem::path& path) {
     if (file.bad()) throw InputError("cannot read the scene", path.string(), "check the disk");
     text.resize(static_cast<std::size_t>(file.gcount()));
     if (text.size() > maximumBytes) {
-        throw InputError("the scene is larger than 1 MiB", path.string(), "is it really a scene file?");
+        throw InputError("the scene is larger than 1 MiB", path.string(), "give a scene file (TOML)");
     }
     return text;
 }

@@ -16,7 +16,7 @@ void applyQuality(Scene& scene, Quality quality) {
             map.bands = 4;
             break;
         case Quality::final:
-            // a cut that is smaller, and bands enough for what it leaves: less bias, more noise, more photons
+            // a smaller cut needs more bands; both lower the bias and raise the noise, which more photons lower again
             map.photons = 24000000;
             map.generations = 40;
             map.bands = 6;

@@ -6,8 +6,8 @@ namespace lumulus::scene {
 
 enum class Quality { draft, interactive, final };
 
-/// Photons, generations, bands and, for `final`, the cut of a preset (docs/error-time.md has what they were chosen by).
-/// loadScene applies it below the file, so that what a scene says explicitly stays.
+/// Sets photons, generations, bands and, for `final`, the forward cut of a preset
+/// (docs/experiments/light-field-direction.md). loadScene applies it before the file, so that the file's keys win.
 void applyQuality(Scene& scene, Quality quality);
 
 }  // namespace lumulus::scene

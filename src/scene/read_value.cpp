@@ -10,7 +10,7 @@
 namespace lumulus::scene {
 namespace {
 
-/// What the messages about one value need.
+/// A key and its place, for messages about its value.
 struct Reader {
     const Key& key;
     const std::string& where;
@@ -39,7 +39,7 @@ struct Reader {
         return x;
     }
 
-    /// 1e6 is taken for an integer too: it is how people write photons.
+    /// Reads an integer. 1e6 counts as an integer too, since people write numbers of photons so.
     std::int64_t integer(const toml::node& node) const {
         if (const auto* exact = node.as_integer()) {
             if (!key.range.contains(static_cast<double>(exact->get()))) outOfRange(fmt::format("{}", exact->get()));

@@ -7,11 +7,11 @@
 
 namespace lumulus::scene {
 
-/// What `node` says for `key`, checked: its type, its range, its choices. `where` names file, line and key in messages.
-/// Errors: InputError.
+/// Reads the value of `key` from `node` and checks its type, range and choices. `where` names file, line and key in
+/// messages. Errors: InputError.
 Value readValue(const toml::node& node, const Key& key, const std::string& where);
 
-/// "a string", "a table", …
+/// Name of the type of a node for messages: "a string", "a table", …
 std::string nodeTypeText(const toml::node& node);
 
 }  // namespace lumulus::scene

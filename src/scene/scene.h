@@ -11,7 +11,7 @@
 #include "scene/fog.h"
 #include "scene/surface.h"
 
-/// The scene as values: what the file says, with every default filled in and every value checked at the door.
+/// The scene as values: the keys of the file, with every default filled in and every value checked.
 /// Units: metres, degrees (angles of the file), W·m⁻² and W·m⁻²·sr⁻¹ per channel, 1/m.
 namespace lumulus::scene {
 
@@ -29,7 +29,7 @@ struct Camera {
     std::optional<glm::dvec3> position;  ///< absent: placed so that the clouds fill the picture
     std::optional<glm::dvec3> target;    ///< absent: the middle of the clouds
     glm::dvec3 up{0.0, 1.0, 0.0};
-    double verticalFov = 40.0;  ///< degrees; for an orthographic camera the angle that frames the target's distance
+    double verticalFov = 40.0;  ///< degrees; of an orthographic camera: frames the same height at the target
     Projection projection = Projection::perspective;
 
     bool operator==(const Camera&) const = default;
@@ -86,7 +86,7 @@ struct Cloud {
 
 struct Preparation {
     int samples = 20000;
-    double densityThreshold = 0.1;          ///< of the maximum: a leaf with a smaller range is not split further
+    double densityThreshold = 0.1;          ///< share of the maximum: a leaf with a smaller range is not split
     std::optional<double> influenceRadius;  ///< metres; absent: from the mean distance of samples
     int maxLeaves = 32768;
     double memoryBudget = 512.0;  ///< MiB for the density volumes of all clouds on the GPU
@@ -103,7 +103,7 @@ struct PhotonMap {
     int bands = 4;
     double forwardCut = 15.0;  ///< degrees; 0 = off
     Majorant majorant = Majorant::automatic;
-    double memoryBudget = 1024.0;  ///< MiB for the light that collectors hold
+    double memoryBudget = 1024.0;  ///< MiB on the GPU for the light of collectors
     std::uint64_t seed = 1;
 
     bool operator==(const PhotonMap&) const = default;
@@ -113,7 +113,7 @@ enum class DrawMode { march, billboards };
 
 struct Draw {
     DrawMode mode = DrawMode::march;
-    double tolerance = 0.2;  ///< of what is interpolated between pixels, against its surroundings; 0: nothing is
+    double tolerance = 0.2;  ///< relative error of interpolated pixels; 0: every pixel is drawn
 
     bool operator==(const Draw&) const = default;
 };

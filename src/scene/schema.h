@@ -15,7 +15,7 @@ namespace lumulus::scene {
 
 enum class Type { number, integer, boolean, vector, rgb, matrix, text, path, choice };
 
-/// Where numbers (each component of a vector) must lie. NaN and infinity never do.
+/// The range of a number, or of each component of a vector. NaN and infinity are always outside.
 struct Range {
     double low = -1e9;
     double high = 1e9;
@@ -26,7 +26,7 @@ struct Range {
     std::string text() const;  ///< "0…1", "above 0, at most 90"
 };
 
-/// What one key of the file says, in the member that fits the key's type.
+/// The value of one key, in the member that fits the key's type.
 struct Value {
     double number = 0.0;
     std::int64_t integer = 0;
@@ -37,14 +37,14 @@ struct Value {
     std::size_t choice = 0;  ///< index into the choices of the key
 };
 
-/// A scene while its keys are read one by one.
+/// A scene whose keys are being read one by one.
 struct Draft {
     Scene scene;
-    std::size_t entry = 0;                           ///< of the array section that the key belongs to
-    std::filesystem::path folder;                    ///< of the scene file: relative paths start here
-    std::span<const std::filesystem::path> allowed;  ///< folders in which files may lie; none: anywhere
+    std::size_t entry = 0;                           ///< index in the array section of the key
+    std::filesystem::path folder;                    ///< folder of the scene file, where relative paths start
+    std::span<const std::filesystem::path> allowed;  ///< folders in which files may lie; empty: everywhere
     std::optional<glm::dvec3> directionTo;
-    std::optional<double> azimuth, elevation;  ///< of the sun, degrees
+    std::optional<double> azimuth, elevation;  ///< sun, degrees
 };
 
 /// One key of the scene file. The parser, its messages and docs/scene-format.md all come from these rows.
@@ -53,7 +53,7 @@ struct Key {
     Type type;
     Range range;
     std::vector<std::string_view> choices;
-    std::string_view fallback;  ///< default as TOML; where it is none, in words within parentheses
+    std::string_view fallback;  ///< default as TOML, or in words within parentheses
     std::string_view documentation;
     void (*set)(Draft&, const Value&);
 };
@@ -61,13 +61,13 @@ struct Key {
 /// All keys, section by section.
 const std::vector<Key>& schema();
 
-/// The row of that name, or null.
+/// The key of that name, or null.
 const Key* findKey(std::string_view name);
 
 /// True for "image", "cloud", "cloud.phase", …
 bool isSection(std::string_view name);
 
-/// What a value has to be, in words: "a number", "one of \"march\", \"billboards\"".
+/// The type of a key's values in words: "a number", "one of \"march\", \"billboards\"".
 std::string typeText(const Key& key);
 
 }  // namespace lumulus::scene

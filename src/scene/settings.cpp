@@ -14,7 +14,7 @@
 
 namespace lumulus::scene {
 
-/// Where the nodes of one document come from, for messages.
+/// The document that nodes come from, for messages.
 struct Settings::Origin {
     std::string source;  ///< file name; empty for an override
     std::string where(const toml::node& node, const std::string& path) const {
@@ -36,7 +36,7 @@ toml::table parseToml(std::string_view text, const std::string& source) {
     }
 }
 
-/// `name = text`, or nothing where the text is no TOML value.
+/// Parses `name = text`. Returns nothing if the text is no TOML value.
 std::optional<toml::table> parseOverrideValue(std::string_view text, const std::string& where) {
     const std::string document = "value = " + std::string(text);
     checkKeyDepth(document, where);
@@ -49,7 +49,7 @@ std::optional<toml::table> parseOverrideValue(std::string_view text, const std::
     return std::nullopt;
 }
 
-/// `name` is no key and no section; the first part of it that is neither has the blame.
+/// Throws for a `name` that is no key and no section. The message names its first part that is neither.
 [[noreturn]] void unknownKey(const std::string& name, const std::string& where) {
     std::size_t start = 0;
     for (std::size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', start)) {
@@ -66,7 +66,7 @@ std::optional<toml::table> parseOverrideValue(std::string_view text, const std::
     throw InputError(fmt::format("unknown key \"{}\"", name.substr(start)), where, suggestKey(name));
 }
 
-/// The index that a path of --set gives the entry of an array; a path without one is refused with the way to write it.
+/// The index of an entry in a path of --set. A path without an index is refused with the right way to write it.
 std::size_t entryIndex(const ArraySection& array, const std::string& path) {
     const std::string index(indexIn(array, path));
     const std::string name(array.name), rest = path.substr(std::min(path.size(), name.size() + 1));
@@ -134,8 +134,8 @@ std::string Settings::byIndex(const ArraySection& array, const std::string& path
     return path;
 }
 
-/// The schema's name for the path of an override within an array: "cloud.0.phase.g" → "cloud.phase.g". Where the entry
-/// is the next one, the array grows by it.
+/// The schema's name for the path of an override in an array: "cloud.0.phase.g" → "cloud.phase.g". An index one beyond
+/// the last entry adds an entry.
 std::string Settings::overriddenName(const ArraySection& array, const std::string& path) {
     const std::size_t entry = entryIndex(array, path);
     std::size_t& count = entries_.try_emplace(std::string(array.name), array.implied).first->second;

@@ -12,19 +12,19 @@
 
 namespace lumulus::scene {
 
-/// One key that somebody gave a value.
+/// One key with the value that the file or an override gives it.
 struct Setting {
     const Key* key = nullptr;
     const toml::node* node = nullptr;  ///< lives in the Settings
     std::string where;                 ///< "scenes/x.toml:14, cloud.0.albedo" or "--set cloud.0.albedo"
     bool fromFile = true;
-    std::size_t entry = 0;  ///< of the array section that it stands in
+    std::size_t entry = 0;  ///< index in its array section
 };
 
-/// All keys that the file and the overrides give, by path ("cloud.0.albedo"); overrides replace the file's.
+/// All keys that the file and the overrides set, by path ("cloud.0.albedo"). Overrides replace the file's values.
 class Settings {
   public:
-    /// The keys of a TOML document. Errors: InputError for bad TOML and for keys that do not exist.
+    /// Adds the keys of a TOML document. Errors: InputError for bad TOML and for keys that do not exist.
     void addFile(std::string_view text, const std::string& source);
     /// `section.key=value`, the value as TOML or else as a bare string. An entry of an array is given by its index or
     /// by its `name`. An override of one of two alternatives (`sun.azimuth`, `sun.direction_to`) takes the file's other

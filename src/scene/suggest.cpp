@@ -16,7 +16,7 @@ std::string_view parentOf(std::string_view name) {
     return dot == std::string_view::npos ? std::string_view{} : name.substr(0, dot);
 }
 
-/// Names directly within a section ("" is the file): keys and sections.
+/// The names of keys and sections directly within a section ("" is the file).
 std::set<std::string> childrenOf(std::string_view section) {
     const std::string prefix = section.empty() ? "" : std::string(section) + ".";
     std::set<std::string> children;
@@ -48,7 +48,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 
 std::string suggestKey(std::string_view name) {
     const std::string_view section = parentOf(name);
-    // a longer name is no misspelling, and would cost time and memory
+    // a longer name is no spelling mistake, and would cost time and memory
     const std::string_view last = name.substr(section.empty() ? 0 : section.size() + 1).substr(0, 64);
     const std::set<std::string> children = childrenOf(section);
     std::size_t best = 1 + last.size() / 3;

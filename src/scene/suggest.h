@@ -5,11 +5,11 @@
 
 namespace lumulus::scene {
 
-/// How to mend an unknown key ("image.widht"): the nearest key or section by edit distance, else what there is to
-/// choose from.
+/// A suggestion for an unknown key ("image.widht"): the nearest key or section by edit distance, or the list of those
+/// that exist.
 std::string suggestKey(std::string_view name);
 
-/// Insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`.
+/// The number of insertions, deletions, substitutions and swaps of neighbours that make `b` from `a`.
 std::size_t editDistance(std::string_view a, std::string_view b);
 
 }  // namespace lumulus::scene

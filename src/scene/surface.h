@@ -2,12 +2,12 @@
 
 #include <glm/glm.hpp>
 
-/// Opaque things in a scene, simple enough to be intersected in closed form: for `lumulus reference` only.
+/// Opaque surfaces that can be intersected in closed form, for `lumulus reference` only.
 namespace lumulus::scene {
 
 enum class SurfaceKind { plane, sphere, disc };
 
-/// Diffuse (Lambert) and emissive, the same on both sides.
+/// A diffuse (Lambert) and emissive surface, the same on both sides.
 struct Surface {
     SurfaceKind kind = SurfaceKind::plane;
     glm::dvec3 position{0.0};          ///< a point of the plane; the middle of a sphere or disc. Metres

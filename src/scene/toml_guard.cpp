@@ -9,7 +9,7 @@ namespace {
 
 constexpr int maximumDots = 8;
 
-/// Position after the string that starts at `i`, or the end of the text where it never closes.
+/// The position after the string that starts at `i`, or the end of the text if the string never closes.
 std::size_t skipString(std::string_view text, std::size_t i) {
     const char quote = text[i];
     const bool tripled = text.substr(i).starts_with(std::string(3, quote));
@@ -20,7 +20,7 @@ std::size_t skipString(std::string_view text, std::size_t i) {
         } else if (text.substr(i).starts_with(end)) {
             return i + end.size();
         } else if (!tripled && text[i] == '\n') {
-            return i;  // the parser will complain
+            return i;  // the parser reports it
         }
     }
     return text.size();

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t maximumPixels = std::int64_t{1} << 25;
 
-/// Place of the first of `paths` that somebody gave.
+/// The place of the first of `paths` that has a value.
 std::string whereOf(const Settings& settings, std::initializer_list<const char*> paths) {
     for (const char* path : paths) {
         if (const Setting* setting = settings.find(path)) return setting->where;
@@ -72,7 +72,7 @@ void finishSun(Draft& draft, const Settings& settings) {
     }
 }
 
-/// A parameter that the model does not read is a mistake, unless --set has replaced the file's model.
+/// Refuses parameters that the model does not use, unless --set has replaced the file's model.
 void checkPhase(const Phase& phase, const std::string& cloud, const Settings& settings) {
     const bool readsG = phase.model == PhaseModel::henyeyGreenstein || phase.model == PhaseModel::schlick;
     const bool readsDiameter = phase.model == PhaseModel::droplet;
@@ -95,7 +95,7 @@ struct Entry {
     std::string name;  ///< "medium"
     const Settings& settings;
 
-    /// A key that the kind does not read is a mistake, unless --set has replaced the file's kind.
+    /// Refuses a key that the kind does not use, unless --set has replaced the file's kind.
     void checkRead(const char* key, bool read, const char* kinds) const {
         const Setting* kind = settings.find(path + "kind");
         const Setting* given = settings.find(path + key);
@@ -104,7 +104,7 @@ struct Entry {
                          fmt::format("leave it out, or write kind = {}", kinds));
     }
 
-    /// The unit vector of a direction that the key gives.
+    /// Normalises the direction of a key. Errors: InputError if it has no length.
     glm::dvec3 unitVector(const char* key, const glm::dvec3& direction) const {
         const double length = glm::length(direction);
         if (!(length > 1e-12)) {
@@ -143,7 +143,7 @@ void checkFog(const Fog& fog, const Settings& settings) {
     }
 }
 
-/// Whether the file lies in one of the folders, links followed; anywhere where none are given.
+/// True if the file lies in one of the folders, with links followed, or if no folders are given.
 bool isAllowed(const std::filesystem::path& file, std::span<const std::filesystem::path> folders) {
     if (folders.empty()) return true;
     std::error_code ec;

@@ -5,8 +5,8 @@
 
 namespace lumulus::scene {
 
-/// The finished scene: what several keys say together, checked (alternatives, the camera's axes, the number of pixels,
-/// files that must exist, parameters that nothing reads) and the sun's direction worked out. Errors: InputError.
+/// Finishes a scene: checks keys that depend on each other (alternatives, the camera's axes, the number of pixels,
+/// files that must exist, parameters without effect) and computes the sun's direction. Errors: InputError.
 Scene finishScene(Draft draft, const Settings& settings);
 
 }  // namespace lumulus::scene

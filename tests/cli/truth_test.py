@@ -103,7 +103,7 @@ class Reference(CliTest):
             result = self.run_lumulus("reference", self.path, "-o", self.picture, "--resume", "--spp", 3, *change)
             self.assertIn("another scene, seed or majorant", self.one_line(result, 2), change)
         self.assertEqual(before, {path.name: path.read_bytes() for path in self.out.iterdir()})
-        for sums, says in ((None, "no exact sums"), (before["a.exr.sums"][:5000], "damaged"), (b"", "damaged")):
+        for sums, says in ((None, "exact sums of the picture are missing"), (before["a.exr.sums"][:5000], "damaged"), (b"", "damaged")):
             self.sums.unlink(missing_ok=True)
             if sums is not None:
                 self.sums.write_bytes(sums)
