@@ -63,8 +63,8 @@ TEST_F(MakeBillboards, StandWhereTheirLeavesHaveDensity) {
         const cloud::Collector& collector = cloud.collectors[collectorOf(b)];
         const double sphere = 4.0 / 3.0 * std::numbers::pi * std::pow(static_cast<double>(b.radius), 3);
         const double filled = std::max(collector.occupiedVoxels(), static_cast<double>(collector.mass));
-        const double volume = static_cast<double>(shared::BILLBOARD_OVERLAP) * filled * cloud.voxelVolume;
-        ASSERT_NEAR(sphere, volume, 1e-5 * volume);
+        const double filledVolume = static_cast<double>(shared::BILLBOARD_OVERLAP) * filled * cloud.voxelVolume;
+        ASSERT_NEAR(sphere, filledVolume, 1e-5 * filledVolume);
         const dvec3 place = instance.toWorld(dvec3(collector.centre)) - eye;
         ASSERT_LT(glm::distance(dvec3(b.centre), place), 1e-4);
     }

@@ -16,7 +16,7 @@ using glm::ivec3;
 using CloudLeaves = test::VulkanTest;
 
 /// Collector of each voxel, −1 for none.
-std::vector<std::int64_t> downloadIndex(gpu::Context& context, const Cloud& cloud) {
+std::vector<std::int64_t> downloadIndex(gpu::Context& context, const Asset& cloud) {
     std::vector<std::int64_t> index;
     if (cloud.collectorIndex.format() == VK_FORMAT_R16_UINT) {
         for (const std::uint16_t i : gpu::download<std::uint16_t>(context, cloud.collectorIndex))
@@ -29,7 +29,7 @@ std::vector<std::int64_t> downloadIndex(gpu::Context& context, const Cloud& clou
 }
 
 /// Every voxel names the collector of the leaf that a walk of the tree finds; no collector: no mass.
-void expectIndexOfTree(gpu::Context& context, const Cloud& cloud, const test::Field& field) {
+void expectIndexOfTree(gpu::Context& context, const Asset& cloud, const test::Field& field) {
     const std::vector<std::int64_t> index = downloadIndex(context, cloud);
     const auto collectors = static_cast<std::int64_t>(cloud.collectors.size());
     for (int z = 0; z < cloud.size.z; ++z)
@@ -54,7 +54,7 @@ TEST_F(CloudLeaves, IndexAgreesWithTheTree) {
         SCOPED_TRACE(c.name);
         const test::Field field(c.volume);
         ASSERT_EQ(field.format(), c.format);
-        const Cloud cloud = prepare(context, c.volume, test::prepareOptions(2000));
+        const Asset cloud = prepare(context, c.volume, test::prepareOptions(2000));
         EXPECT_EQ(cloud.format, c.format);
         EXPECT_GT(cloud.collectors.size(), 20U);
         expectIndexOfTree(context, cloud, field);
@@ -67,7 +67,7 @@ TEST_F(CloudLeaves, IndexOfManyCollectorsIsWide) {
     PrepareOptions options = test::prepareOptions(100);
     options.preparation.maxLeaves = 90000;
     options.reducedExtinction = 100.0;  // every voxel is a leaf
-    const Cloud cloud = prepare(context, volume, options);
+    const Asset cloud = prepare(context, volume, options);
     ASSERT_GT(cloud.collectors.size(), 65536U);
     EXPECT_EQ(cloud.collectorIndex.format(), VK_FORMAT_R32_UINT);
     expectIndexOfTree(context, cloud, test::Field(volume));
@@ -77,7 +77,7 @@ TEST_F(CloudLeaves, MassesAreTheIntegralsOfTheInterpolatedField) {
     for (const test::CloudCase& c : test::cloudCases()) {
         SCOPED_TRACE(c.name);
         const test::Field field(c.volume);
-        const Cloud cloud = prepare(context, c.volume, test::prepareOptions(2000));
+        const Asset cloud = prepare(context, c.volume, test::prepareOptions(2000));
         double total = 0.0;
         for (const Collector& collector : cloud.collectors) {
             const double mass = field.mass(collector.box.lower, collector.box.upper);
@@ -93,7 +93,7 @@ TEST_F(CloudLeaves, CentresAndOccupancyDescribeTheLeaf) {
     for (const test::CloudCase& c : test::cloudCases()) {
         SCOPED_TRACE(c.name);
         const test::Field field(c.volume);
-        const Cloud cloud = prepare(context, c.volume, test::prepareOptions(2000));
+        const Asset cloud = prepare(context, c.volume, test::prepareOptions(2000));
         for (const Collector& collector : cloud.collectors) {
             const ivec3 lower = collector.box.lower, upper = collector.box.upper;
             glm::dvec3 moment(0.0);
@@ -119,8 +119,8 @@ TEST_F(CloudLeaves, CentresAndOccupancyDescribeTheLeaf) {
 
 TEST_F(CloudLeaves, PreparationIsTheSameTwice) {
     const vdb::Volume volume = test::cloudCases()[1].volume;
-    const Cloud first = prepare(context, volume, test::prepareOptions(3000));
-    const Cloud second = prepare(context, volume, test::prepareOptions(3000));
+    const Asset first = prepare(context, volume, test::prepareOptions(3000));
+    const Asset second = prepare(context, volume, test::prepareOptions(3000));
     ASSERT_EQ(first.samples.size(), second.samples.size());
     for (std::size_t i = 0; i < first.samples.size(); ++i)
         ASSERT_TRUE(first.samples[i].position == second.samples[i].position &&

@@ -86,7 +86,7 @@ TEST_F(CloudMajorants, GridIsNeverBelowTheDensity) {
         const test::Field field(c.volume);
         for (const scene::Majorant kind : {scene::Majorant::local, scene::Majorant::global}) {
             SCOPED_TRACE(c.name);
-            const Cloud cloud = prepare(context, c.volume, test::prepareOptions(500, kind));
+            const Asset cloud = prepare(context, c.volume, test::prepareOptions(500, kind));
             EXPECT_EQ(cloud.majorants.maxima.size() == 1, kind == scene::Majorant::global);
             std::mt19937 random(1);
             for (int i = 0; i < 100'000; ++i) {
@@ -102,7 +102,7 @@ TEST_F(CloudMajorants, LeavesAreNeverBelowTheDensity) {
     for (const test::CloudCase& c : test::cloudCases()) {
         SCOPED_TRACE(c.name);
         const test::Field field(c.volume);
-        const Cloud cloud = prepare(context, c.volume, test::prepareOptions(2000));
+        const Asset cloud = prepare(context, c.volume, test::prepareOptions(2000));
         std::vector<float> majorants(cloud.tree.leaves.size(), 0.0F);
         for (const Collector& collector : cloud.collectors)
             majorants[static_cast<std::size_t>(cloud.tree.find(collector.box.lower))] = collector.majorant;
@@ -124,7 +124,7 @@ TEST_F(CloudMajorants, LeavesAreNeverBelowTheDensity) {
 TEST_F(CloudMajorants, GridIsTight) {
     const test::CloudCase c = test::cloudCases()[1];
     const test::Field field(c.volume);
-    const Cloud cloud = prepare(context, c.volume, test::prepareOptions(500, scene::Majorant::local));
+    const Asset cloud = prepare(context, c.volume, test::prepareOptions(500, scene::Majorant::local));
     const MajorantGrid& grid = cloud.majorants;
     double volume = 0.0, tentative = 0.0;
     for (int z = 0; z < grid.cells.z; ++z)

@@ -70,7 +70,7 @@ TEST_F(GradientSampling, FollowsTheGradientInSpace) {
             PrepareOptions options = test::prepareOptions(100'000);
             options.preparation.maxLeaves = 16;
             options.seed = seed;
-            const Cloud cloud = prepare(context, c.volume, options);
+            const Asset cloud = prepare(context, c.volume, options);
             ASSERT_EQ(cloud.samples.size(), 100'000U);
             std::vector<double> seen(bins.size(), 0.0), due;
             for (const Sample& sample : cloud.samples) {
@@ -87,7 +87,7 @@ TEST_F(GradientSampling, FollowsTheGradientInSpace) {
 TEST_F(GradientSampling, ASpikeDoesNotStallIt) {
     const vdb::Volume volume = test::spikeVolume();
     const test::Field field(volume);
-    const Cloud cloud = prepare(context, volume, test::prepareOptions(100'000));
+    const Asset cloud = prepare(context, volume, test::prepareOptions(100'000));
     const glm::dmat3 identity(1.0);
     const dvec3 spike(25.5, 22.5, 27.5);
     const auto nearSpike = [&](const dvec3& point) {

@@ -1,5 +1,5 @@
 // Every pass belongs to a stage.
-#include "pass_stage.h"
+#include "render/pass_stage.h"
 
 #include <gtest/gtest.h>
 

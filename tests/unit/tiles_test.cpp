@@ -38,7 +38,7 @@ std::vector<Billboard> randomSpheres(std::size_t count, unsigned seed) {
     for (std::size_t i = 0; i < count; ++i) {
         const glm::vec3 direction = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
         const float distance = 100.0F * std::pow(uniform(random), 1.5F);
-        spheres.push_back({distance * direction, 30.0F * std::pow(uniform(random), 4.0F) + 0.05F, 1.0F});
+        spheres.push_back({distance * direction, 30.0F * std::pow(uniform(random), 4.0F) + 0.05F, 1.0F, 0.0F});
     }
     return spheres;
 }
@@ -117,9 +117,9 @@ TEST(TileLists, AreShort) {
 TEST(TileLists, LeaveOutWhatParallelRaysHaveBehindThem) {
     const Camera camera = cameraFor({scene::Projection::orthographic, 64, 48, 40.0});
     const dvec3 forward = camera.axes[2];
-    const std::vector<Billboard> spheres{{glm::vec3(3.0 * forward), 2.0F, 1.0F},
-                                         {glm::vec3(-1.0 * forward), 2.0F, 1.0F},
-                                         {glm::vec3(-3.0 * forward), 2.0F, 1.0F}};
+    const std::vector<Billboard> spheres{{glm::vec3(3.0 * forward), 2.0F, 1.0F, 0.0F},
+                                         {glm::vec3(-1.0 * forward), 2.0F, 1.0F, 0.0F},
+                                         {glm::vec3(-3.0 * forward), 2.0F, 1.0F, 0.0F}};
     EXPECT_EQ(listOf(makeTileLists(camera, spheres), 32, 24), (std::vector<std::uint32_t>{0, 1}));
 }
 

@@ -124,7 +124,7 @@ TEST(Procedural, SlabHoldsTheMassOfABox) {
 TEST(Procedural, CumulusHasAFlatBaseAndADenseHeart) {
     for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
         const Volume cloud = makeCloud({"cumulus", 64, seed});
-        const double voxel = cloud.voxelToMetres[1][1];
+        const double voxel = cloud.toWorld.linear[1][1];
         double broadest = 0.0;
         int top = 0;
         for (int y = 0; y < cloud.size.y; ++y) {
