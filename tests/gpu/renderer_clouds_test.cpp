@@ -65,16 +65,18 @@ TEST_P(Clouds, TransmittancesMultiply) {
     scene::Cloud left = ballAt({-120, 0, 0}), behind = ballAt({-60, 10, -300});
     left.albedo = behind.albedo = dvec3(0.0);
     const Frame one = with({left}), other = with({behind}), both = with({left, behind});
-    double largest = 0.0, least = 1.0;
+    double largest = 0.0, least = 1.0, product = 0.0;
     for (std::size_t i = 0; i < both.image.pixels(); ++i) {
         const auto t = [&](const Frame& frame) {
             return static_cast<double>(frame.image.layers.at("transmittance.G")[i]);
         };
         largest = std::max(largest, std::abs(t(both) - t(one) * t(other)));
         least = std::min(least, t(one) * t(other));
+        product += t(one) * t(other) / static_cast<double>(both.image.pixels());
     }
     EXPECT_LT(least, 0.05) << "they hide each other somewhere";
-    EXPECT_LT(largest, 2e-3);
+    EXPECT_LT(largest, 1e-2) << "steps of other lengths where both are met";
+    EXPECT_NEAR(meanOf(both.image, "transmittance.G"), product, 2e-4);
 }
 
 /// Half the density twice at one place is the whole once.
@@ -83,8 +85,9 @@ TEST_P(Clouds, ExtinctionsAddUp) {
     whole.albedo = half.albedo = dvec3(0.0);
     half.extinction *= 0.5;
     const Frame once = with({whole}), twice = with({half, half});
-    // where both are met rays take other steps, with errors of their own that have no sign
-    EXPECT_LT(difference(once, twice, "transmittance.G"), 5e-3);
+    // Rays in several clouds take other steps, and each step of the ball's edge is wrong by up to half of its optical
+    // thickness of 0.12 without a sign; the mean over 4,608 rays is right to a fiftieth of that.
+    EXPECT_LT(difference(once, twice, "transmittance.G"), 2e-2);
     EXPECT_NEAR(meanOf(twice.image, "transmittance.G"), meanOf(once.image, "transmittance.G"), 2e-4);
 }
 
