@@ -3,17 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "base/error.h"
 
 namespace lumulus::gpu {
 namespace {
-
-/// The formats that Lumulus uses, with the bytes of a texel.
-constexpr std::pair<VkFormat, std::uint64_t> texelSizes[] = {
-    {VK_FORMAT_R8_UNORM, 1},   {VK_FORMAT_R16_SFLOAT, 2}, {VK_FORMAT_R16_UINT, 2},
-    {VK_FORMAT_R32_SFLOAT, 4}, {VK_FORMAT_R32_UINT, 4},   {VK_FORMAT_R32G32B32A32_SFLOAT, 16},
-};
 
 std::uint64_t texelBytes(VkFormat format) {
     for (const auto& [known, bytes] : texelSizes)
@@ -21,13 +16,36 @@ std::uint64_t texelBytes(VkFormat format) {
     throw std::logic_error(fmt::format("Lumulus does not use VkFormat {}", static_cast<int>(format)));
 }
 
-std::uint64_t texelCount(glm::ivec3 extent, const std::string& name) {
-    if (extent.x < 1 || extent.y < 1 || extent.z < 1) throw std::logic_error("image " + name + " has no texels");
-    const glm::u64vec3 size(extent);
-    return size.x * size.y * size.z;
+glm::ivec3 levelExtent(glm::ivec3 extent, int level) {
+    return glm::max(extent >> level, glm::ivec3(1));
 }
 
-constexpr VkImageSubresourceRange allOfIt{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+std::uint64_t imageBytes(const std::string& name, glm::ivec3 extent, VkFormat format, ImageParts parts) {
+    if (extent.x < 1 || extent.y < 1 || extent.z < 1) throw std::logic_error("image " + name + " has no texels");
+    if (parts.levels < 1 || parts.levels > mipLevels(extent) || parts.layers < 0)
+        throw std::logic_error(
+            fmt::format("image {} cannot have {} levels of {} layers", name, parts.levels, parts.layers));
+    std::uint64_t bytes = 0;
+    for (int level = 0; level < parts.levels; ++level) {
+        const glm::u64vec3 size(levelExtent(extent, level));
+        bytes += size.x * size.y * size.z * static_cast<std::uint64_t>(std::max(parts.layers, 1)) * texelBytes(format);
+    }
+    return bytes;
+}
+
+void requireLimits(const Image& image, const VkPhysicalDeviceLimits& limits) {
+    const glm::uvec3 size(image.extent());
+    const bool volume = image.dimensions() == 3;
+    const std::uint32_t side = volume ? limits.maxImageDimension3D : limits.maxImageDimension2D;
+    if (size.x > side || size.y > side || size.z > side)
+        throw Error(fmt::format("an image of {}x{}x{} texels is above the device's limit of {}x{}x{}", size.x, size.y,
+                                size.z, side, side, volume ? side : 1),
+                    image.name(), "use a coarser cloud or another device");
+    if (static_cast<std::uint32_t>(image.layers()) > limits.maxImageArrayLayers)
+        throw Error(
+            fmt::format("{} layers are above the device's limit of {}", image.layers(), limits.maxImageArrayLayers),
+            image.name(), "use fewer layers or another device");
+}
 
 }  // namespace
 
@@ -64,29 +82,61 @@ Buffer::Buffer(Context& context, std::string name, std::uint64_t count, VkFormat
                              VK_OBJECT_TYPE_BUFFER_VIEW, name_);
 }
 
-Image::Image(Context& context, std::string name, glm::ivec2 extent, VkFormat format)
-    : Image(context, std::move(name), glm::ivec3(extent, 1), 2, format) {}
+int mipLevels(glm::ivec3 extent) {
+    return std::bit_width(static_cast<unsigned>(std::max({extent.x, extent.y, extent.z})));
+}
 
-Image::Image(Context& context, std::string name, glm::ivec3 extent, VkFormat format)
-    : Image(context, std::move(name), extent, 3, format) {}
+glm::ivec3 ImageLevel::extent() const {
+    return levelExtent(image->extent(), level);
+}
 
-Image::Image(Context& context, std::string name, glm::ivec3 extent, int dimensions, VkFormat format)
-    : Resource(name, texelCount(extent, name) * texelBytes(format)),
+int ImageLevel::slices() const {
+    if (image->dimensions() == 3) return extent().z;
+    return layer ? 1 : image->layers();
+}
+
+std::uint64_t ImageLevel::bytes() const {
+    const glm::u64vec3 size(extent());
+    return size.x * size.y * static_cast<std::uint64_t>(slices()) * texelBytes(image->format());
+}
+
+Image::Image(Context& context, std::string name, glm::ivec2 extent, VkFormat format, ImageParts parts)
+    : Image(context, std::move(name), glm::ivec3(extent, 1), 2, format, parts) {}
+
+Image::Image(Context& context, std::string name, glm::ivec3 extent, VkFormat format, ImageParts parts)
+    : Image(context, std::move(name), extent, 3, format, parts) {}
+
+Image::Image(Context& context, std::string name, glm::ivec3 extent, int dimensions, VkFormat format, ImageParts parts)
+    : Resource(name, imageBytes(name, extent, format, parts)),
       extent_(extent),
       dimensions_(dimensions),
-      format_(format) {
-    const glm::uvec3 size(extent);
-    const VkPhysicalDeviceLimits& limits = context.limits();
-    const std::uint32_t side = dimensions == 3 ? limits.maxImageDimension3D : limits.maxImageDimension2D;
-    if (size.x > side || size.y > side || size.z > side)
-        throw Error(fmt::format("an image of {}x{}x{} texels is above the device's limit of {}x{}x{}", size.x, size.y,
-                                size.z, side, side, dimensions == 3 ? side : 1),
-                    name_, "use a coarser cloud or another device");
+      format_(format),
+      parts_(parts) {
+    if (dimensions == 3 && isArray()) throw std::logic_error("image " + name_ + " is an array of volumes");
+    requireLimits(*this, context.limits());
+    createImage(context);
+    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, static_cast<std::uint32_t>(levels()), 0,
+                                      static_cast<std::uint32_t>(layers())};
+    createViews(context, all);
+    context.immediately([&](VkCommandBuffer commands) {
+        VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
+        barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+        barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+        barrier.image = handle();
+        barrier.subresourceRange = all;
+        constexpr VkPipelineStageFlags stages = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+        context.api().vkCmdPipelineBarrier(commands, stages, stages, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+    });
+}
+
+void Image::createImage(Context& context) {
+    const glm::uvec3 size(extent_);
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
-    info.imageType = dimensions == 3 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
-    info.format = format;
+    info.imageType = dimensions_ == 3 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
+    info.format = format_;
     info.extent = {size.x, size.y, size.z};
-    info.mipLevels = info.arrayLayers = 1;
+    info.mipLevels = static_cast<std::uint32_t>(levels());
+    info.arrayLayers = static_cast<std::uint32_t>(layers());
     info.samples = VK_SAMPLE_COUNT_1_BIT;
     info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                  VK_IMAGE_USAGE_TRANSFER_DST_BIT;
@@ -97,19 +147,26 @@ Image::Image(Context& context, std::string name, glm::ivec3 extent, int dimensio
     allocation_ = context.allocator().allocate(name_, needs, Memory::device, Tiling::optimal);
     check(api.vkBindImageMemory(context.handle(), handle(), allocation_->memory(), allocation_->offset),
           "vkBindImageMemory");
-    const VkImageViewType type = dimensions == 3 ? VK_IMAGE_VIEW_TYPE_3D : VK_IMAGE_VIEW_TYPE_2D;
-    const VkImageViewCreateInfo viewInfo{
-        VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, nullptr, 0, handle(), type, format, {}, allOfIt};
-    view_ = context.create(api.vkCreateImageView, api.vkDestroyImageView, viewInfo, VK_OBJECT_TYPE_IMAGE_VIEW, name_);
-    context.immediately([&](VkCommandBuffer commands) {
-        VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
-        barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
-        barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
-        barrier.image = handle();
-        barrier.subresourceRange = allOfIt;
-        constexpr VkPipelineStageFlags all = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
-        api.vkCmdPipelineBarrier(commands, all, all, 0, 0, nullptr, 0, nullptr, 1, &barrier);
-    });
+}
+
+void Image::createViews(Context& context, VkImageSubresourceRange all) {
+    const VkImageViewType picture = isArray() ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+    const auto add = [&](const VkImageSubresourceRange& range) {
+        const VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,           nullptr, 0,  handle(),
+                                         dimensions_ == 3 ? VK_IMAGE_VIEW_TYPE_3D : picture, format_, {}, range};
+        views_.push_back(context.create(context.api().vkCreateImageView, context.api().vkDestroyImageView, info,
+                                        VK_OBJECT_TYPE_IMAGE_VIEW, name_));
+    };
+    add(all);
+    for (std::uint32_t level = 0; all.levelCount > 1 && level < all.levelCount; ++level)
+        add({VK_IMAGE_ASPECT_COLOR_BIT, level, 1, 0, all.layerCount});
+}
+
+ImageLevel Image::level(int level, std::optional<int> layer) const {
+    if (level < 0 || level >= levels() || (layer && (!isArray() || *layer < 0 || *layer >= layers())))
+        throw std::logic_error(fmt::format("image {} has {} levels of {} layers: there is no level {}, layer {}", name_,
+                                           levels(), layers(), level, layer.value_or(0)));
+    return {this, level, layer};
 }
 
 }  // namespace lumulus::gpu
