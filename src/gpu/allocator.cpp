@@ -8,11 +8,6 @@
 
 namespace lumulus::gpu {
 
-void ReturnMemory::operator()(Placement* placement) const {
-    allocator->giveBack(*placement);
-    delete placement;
-}
-
 Allocator::Allocator(VkPhysicalDevice physical, VkDevice device, const VolkDeviceTable& api,
                      std::uint64_t maxAllocationBytes)
     : device_(device), api_(&api), maxAllocationBytes_(maxAllocationBytes) {
@@ -34,7 +29,8 @@ Allocation Allocator::allocate(const std::string& resource, const VkMemoryRequir
                                Tiling tiling) {
     const std::lock_guard lock(mutex_);
     const std::uint32_t type = findMemoryType(needs.memoryTypeBits, where);
-    auto placement = std::make_unique<Placement>(place(pools_[{type, tiling}], type, resource, needs));
+    auto placement = std::make_unique<Placement>(
+        place(pools_.try_emplace({type, tiling}, MemoryPool{type}).first->second, resource, needs));
     placement->id = ++lastId_;
     placement->block->pool->used += needs.size;
     statistics_.used += needs.size;
@@ -43,38 +39,31 @@ Allocation Allocator::allocate(const std::string& resource, const VkMemoryRequir
     return {placement.release(), {this}};
 }
 
-Placement Allocator::place(MemoryPool& pool, std::uint32_t type, const std::string& resource,
-                           const VkMemoryRequirements& needs) {
-    const auto takeFrom = [&](MemoryBlock& block) {
-        return Placement{&block, block.free.take(needs.size, needs.alignment).value(), needs.size};
-    };
+Placement Allocator::place(MemoryPool& pool, const std::string& resource, const VkMemoryRequirements& needs) {
     for (const auto& block : pool.blocks)
         if (const auto offset = block->free.take(needs.size, needs.alignment))
             return {block.get(), *offset, needs.size};
     const std::uint64_t quarter = std::clamp(std::bit_floor(pool.used / 4), leastBlockBytes, mostBlockBytes);
     const std::uint64_t blockBytes = std::min(quarter, maxAllocationBytes_);
-    if (needs.size <= blockBytes / 2 && addBlock(pool, type, "block", blockBytes, true) == VK_SUCCESS)
-        return takeFrom(*pool.blocks.back());
-    VkResult result = addBlock(pool, type, resource, needs.size, false);
-    if (result != VK_SUCCESS) {
+    const bool shared = needs.size <= blockBytes / 2 && addBlock(pool, "block", blockBytes, true) == VK_SUCCESS;
+    if (!shared && addBlock(pool, resource, needs.size, false) != VK_SUCCESS) {
         for (auto& [key, other] : pools_) removeUnusedBlocks(other, 0);
-        result = addBlock(pool, type, resource, needs.size, false);
+        checkMemory(addBlock(pool, resource, needs.size, false), "vkAllocateMemory", resource, needs.size);
     }
-    checkMemory(result, "vkAllocateMemory", resource, needs.size);
-    return takeFrom(*pool.blocks.back());
+    MemoryBlock& added = *pool.blocks.back();
+    return {&added, added.free.take(needs.size, needs.alignment).value(), needs.size};
 }
 
-VkResult Allocator::addBlock(MemoryPool& pool, std::uint32_t type, const std::string& name, std::uint64_t bytes,
-                             bool shared) {
+VkResult Allocator::addBlock(MemoryPool& pool, const std::string& name, std::uint64_t bytes, bool shared) {
     if (bytes > maxAllocationBytes_) return VK_ERROR_OUT_OF_DEVICE_MEMORY;  // some drivers take it, and fail in use
-    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, bytes, type};
+    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, bytes, pool.type};
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkResult result = api_->vkAllocateMemory(device_, &info, nullptr, &memory);
     if (result != VK_SUCCESS) return result;
     Owned<VkDeviceMemory> owned(memory, {device_, api_->vkFreeMemory});
     setObjectName(device_, VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<std::uint64_t>(memory), name);
     void* mapped = nullptr;
-    if ((memory_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
+    if ((memory_.memoryTypes[pool.type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
         result = api_->vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &mapped);
         if (result != VK_SUCCESS) return result;
         // a build with AddressSanitizer reports who touches memory that no resource has
@@ -99,14 +88,15 @@ void Allocator::removeUnusedBlocks(MemoryPool& pool, std::size_t spares) {
     });
 }
 
-void Allocator::giveBack(const Placement& placement) {
-    const std::lock_guard lock(mutex_);
-    MemoryBlock& block = *placement.block;
-    if (placement.mapped() != nullptr) ASAN_POISON_MEMORY_REGION(placement.mapped(), placement.bytes);
-    block.free.give(placement.offset, placement.bytes);
-    block.pool->used -= placement.bytes;
-    statistics_.used -= placement.bytes;
-    if (block.free.unused()) removeUnusedBlocks(*block.pool, block.pool->used > 0 ? 1 : 0);
+void ReturnMemory::operator()(Placement* placement) const {
+    const std::unique_ptr<Placement> owned(placement);
+    const std::lock_guard lock(allocator->mutex_);
+    MemoryBlock& block = *placement->block;
+    if (placement->mapped() != nullptr) ASAN_POISON_MEMORY_REGION(placement->mapped(), placement->bytes);
+    block.free.give(placement->offset, placement->bytes);
+    block.pool->used -= placement->bytes;
+    allocator->statistics_.used -= placement->bytes;
+    if (block.free.unused()) allocator->removeUnusedBlocks(*block.pool, block.pool->used > 0 ? 1 : 0);
 }
 
 MemoryStatistics Allocator::statistics() const {

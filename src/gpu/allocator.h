@@ -39,6 +39,7 @@ struct MemoryBlock {
 
 /// The blocks of one memory type and tiling.
 struct MemoryPool {
+    std::uint32_t type = 0;  ///< of memory
     std::uint64_t used = 0;  ///< bytes
     std::vector<std::unique_ptr<MemoryBlock>> blocks;
 };
@@ -85,11 +86,9 @@ class Allocator {
     friend ReturnMemory;
 
     std::uint32_t findMemoryType(std::uint32_t allowed, Memory where) const;
-    Placement place(MemoryPool& pool, std::uint32_t type, const std::string& resource,
-                    const VkMemoryRequirements& needs);
-    VkResult addBlock(MemoryPool& pool, std::uint32_t type, const std::string& name, std::uint64_t bytes, bool shared);
+    Placement place(MemoryPool& pool, const std::string& resource, const VkMemoryRequirements& needs);
+    VkResult addBlock(MemoryPool& pool, const std::string& name, std::uint64_t bytes, bool shared);
     void removeUnusedBlocks(MemoryPool& pool, std::size_t spares);
-    void giveBack(const Placement& placement);
 
     VkDevice device_;
     const VolkDeviceTable* api_;

@@ -45,16 +45,13 @@ const Binding& findBinding(const ProgramBase& program, const std::vector<Binding
 
 /// Adds what the program does to the resource of a binding: to each of its levels.
 void addAccesses(std::vector<Access>& accesses, const Binding& binding, const BindingInfo& info) {
-    if (binding.buffer != nullptr) {
-        accesses.push_back({binding.buffer->id(), binding.buffer->name(), info.reads, info.writes});
-        return;
-    }
-    const Image& image = *binding.image;
-    const int first = binding.part ? binding.part->level : 0;
-    const int end = binding.part ? first + 1 : image.levels();
-    for (int level = first; level < end; ++level) {
-        const std::string name = image.levels() > 1 ? fmt::format("{} level {}", image.name(), level) : image.name();
-        accesses.push_back({image.id(), name, info.reads, info.writes, static_cast<std::uint32_t>(level)});
+    const bool isBuffer = binding.buffer != nullptr;
+    const Resource& resource = isBuffer ? static_cast<const Resource&>(*binding.buffer) : *binding.image;
+    const int levels = isBuffer ? 1 : binding.image->levels();
+    for (int level = 0; level < levels; ++level) {
+        if (binding.part && binding.part->level != level) continue;
+        const std::string name = levels > 1 ? fmt::format("{} level {}", resource.name(), level) : resource.name();
+        accesses.push_back({resource.id(), name, info.reads, info.writes, static_cast<std::uint32_t>(level)});
     }
 }
 

@@ -16,35 +16,23 @@ std::uint64_t texelBytes(VkFormat format) {
     throw std::logic_error(fmt::format("Lumulus does not use VkFormat {}", static_cast<int>(format)));
 }
 
-glm::ivec3 levelExtent(glm::ivec3 extent, int level) {
-    return glm::max(extent >> level, glm::ivec3(1));
-}
-
-std::uint64_t imageBytes(const std::string& name, glm::ivec3 extent, VkFormat format, ImageParts parts) {
-    if (extent.x < 1 || extent.y < 1 || extent.z < 1) throw std::logic_error("image " + name + " has no texels");
-    if (parts.levels < 1 || parts.levels > mipLevels(extent) || parts.layers < 0)
-        throw std::logic_error(
-            fmt::format("image {} cannot have {} levels of {} layers", name, parts.levels, parts.layers));
-    std::uint64_t bytes = 0;
-    for (int level = 0; level < parts.levels; ++level) {
-        const glm::u64vec3 size(levelExtent(extent, level));
-        bytes += size.x * size.y * size.z * static_cast<std::uint64_t>(std::max(parts.layers, 1)) * texelBytes(format);
-    }
-    return bytes;
-}
-
-void requireLimits(const Image& image, const VkPhysicalDeviceLimits& limits) {
-    const glm::uvec3 size(image.extent());
-    const bool volume = image.dimensions() == 3;
-    const std::uint32_t side = volume ? limits.maxImageDimension3D : limits.maxImageDimension2D;
-    if (size.x > side || size.y > side || size.z > side)
-        throw Error(fmt::format("an image of {}x{}x{} texels is above the device's limit of {}x{}x{}", size.x, size.y,
-                                size.z, side, side, volume ? side : 1),
-                    image.name(), "use a coarser cloud or another device");
-    if (static_cast<std::uint32_t>(image.layers()) > limits.maxImageArrayLayers)
+void requirePossible(const Image& image, const VkPhysicalDeviceLimits& limits) {
+    const glm::ivec3 extent = image.extent();
+    if (extent.x < 1 || extent.y < 1 || extent.z < 1)
+        throw std::logic_error("image " + image.name() + " has no texels");
+    if (image.levels() < 1 || image.levels() > mipLevels(extent) || (image.isArray() && image.dimensions() == 3))
+        throw std::logic_error(fmt::format("image {} of {} dimensions cannot have {} levels of {} layers", image.name(),
+                                           image.dimensions(), image.levels(), image.layers()));
+    const glm::uvec4 size(image.extent(), image.layers());
+    const std::uint32_t flat = limits.maxImageDimension2D;
+    const std::uint32_t cube = limits.maxImageDimension3D;
+    const glm::uvec4 limit = image.dimensions() == 3 ? glm::uvec4(cube, cube, cube, 1)
+                                                     : glm::uvec4(flat, flat, 1, limits.maxImageArrayLayers);
+    if (glm::any(glm::greaterThan(size, limit)))
         throw Error(
-            fmt::format("{} layers are above the device's limit of {}", image.layers(), limits.maxImageArrayLayers),
-            image.name(), "use fewer layers or another device");
+            fmt::format("an image of {}x{}x{} texels in {} layers is above the device's limit of {}x{}x{} in {}",
+                        size.x, size.y, size.z, size.w, limit.x, limit.y, limit.z, limit.w),
+            image.name(), "use a coarser cloud or another device");
 }
 
 }  // namespace
@@ -87,7 +75,7 @@ int mipLevels(glm::ivec3 extent) {
 }
 
 glm::ivec3 ImageLevel::extent() const {
-    return levelExtent(image->extent(), level);
+    return glm::max(image->extent() >> level, glm::ivec3(1));
 }
 
 int ImageLevel::slices() const {
@@ -100,36 +88,10 @@ std::uint64_t ImageLevel::bytes() const {
     return size.x * size.y * static_cast<std::uint64_t>(slices()) * texelBytes(image->format());
 }
 
-Image::Image(Context& context, std::string name, glm::ivec2 extent, VkFormat format, ImageParts parts)
-    : Image(context, std::move(name), glm::ivec3(extent, 1), 2, format, parts) {}
-
-Image::Image(Context& context, std::string name, glm::ivec3 extent, VkFormat format, ImageParts parts)
-    : Image(context, std::move(name), extent, 3, format, parts) {}
-
 Image::Image(Context& context, std::string name, glm::ivec3 extent, int dimensions, VkFormat format, ImageParts parts)
-    : Resource(name, imageBytes(name, extent, format, parts)),
-      extent_(extent),
-      dimensions_(dimensions),
-      format_(format),
-      parts_(parts) {
-    if (dimensions == 3 && isArray()) throw std::logic_error("image " + name_ + " is an array of volumes");
-    requireLimits(*this, context.limits());
-    createImage(context);
-    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, static_cast<std::uint32_t>(levels()), 0,
-                                      static_cast<std::uint32_t>(layers())};
-    createViews(context, all);
-    context.immediately([&](VkCommandBuffer commands) {
-        VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
-        barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
-        barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
-        barrier.image = handle();
-        barrier.subresourceRange = all;
-        constexpr VkPipelineStageFlags stages = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
-        context.api().vkCmdPipelineBarrier(commands, stages, stages, 0, 0, nullptr, 0, nullptr, 1, &barrier);
-    });
-}
-
-void Image::createImage(Context& context) {
+    : Resource(std::move(name), 0), extent_(extent), dimensions_(dimensions), format_(format), parts_(parts) {
+    requirePossible(*this, context.limits());
+    for (int i = 0; i < levels(); ++i) bytes_ += level(i).bytes();
     const glm::uvec3 size(extent_);
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     info.imageType = dimensions_ == 3 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
@@ -147,19 +109,29 @@ void Image::createImage(Context& context) {
     allocation_ = context.allocator().allocate(name_, needs, Memory::device, Tiling::optimal);
     check(api.vkBindImageMemory(context.handle(), handle(), allocation_->memory(), allocation_->offset),
           "vkBindImageMemory");
+    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, static_cast<std::uint32_t>(levels()), 0,
+                                      static_cast<std::uint32_t>(layers())};
+    addView(context, all);
+    for (std::uint32_t level = 0; level < all.levelCount; ++level)
+        addView(context, {VK_IMAGE_ASPECT_COLOR_BIT, level, 1, 0, all.layerCount});
+    context.immediately([&](VkCommandBuffer commands) {
+        VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
+        barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+        barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+        barrier.image = handle();
+        barrier.subresourceRange = all;
+        constexpr VkPipelineStageFlags stages = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+        context.api().vkCmdPipelineBarrier(commands, stages, stages, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+    });
 }
 
-void Image::createViews(Context& context, VkImageSubresourceRange all) {
+void Image::addView(Context& context, const VkImageSubresourceRange& range) {
     const VkImageViewType picture = isArray() ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
-    const auto add = [&](const VkImageSubresourceRange& range) {
-        const VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,           nullptr, 0,  handle(),
-                                         dimensions_ == 3 ? VK_IMAGE_VIEW_TYPE_3D : picture, format_, {}, range};
-        views_.push_back(context.create(context.api().vkCreateImageView, context.api().vkDestroyImageView, info,
-                                        VK_OBJECT_TYPE_IMAGE_VIEW, name_));
-    };
-    add(all);
-    for (std::uint32_t level = 0; all.levelCount > 1 && level < all.levelCount; ++level)
-        add({VK_IMAGE_ASPECT_COLOR_BIT, level, 1, 0, all.layerCount});
+    const VkImageViewType type = dimensions_ == 3 ? VK_IMAGE_VIEW_TYPE_3D : picture;
+    const VkImageViewCreateInfo info{
+        VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, nullptr, 0, handle(), type, format_, {}, range};
+    views_.push_back(context.create(context.api().vkCreateImageView, context.api().vkDestroyImageView, info,
+                                    VK_OBJECT_TYPE_IMAGE_VIEW, name_));
 }
 
 ImageLevel Image::level(int level, std::optional<int> layer) const {

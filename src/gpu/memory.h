@@ -56,18 +56,12 @@ class Buffer : public Resource {
 /// The formats of images and texel buffers, with the bytes of a texel. Shaders store to all of them and sample all of
 /// them, linearly but for the integers. Vulkan promises it with shaderStorageImageExtendedFormats, except for linear
 /// filtering of 32-bit floats, which assess() asks for.
-inline constexpr std::pair<VkFormat, std::uint64_t> texelSizes[] = {{VK_FORMAT_R8_UNORM, 1},
-                                                                    {VK_FORMAT_R16_SFLOAT, 2},
-                                                                    {VK_FORMAT_R16_UINT, 2},
-                                                                    {VK_FORMAT_R32_SFLOAT, 4},
-                                                                    {VK_FORMAT_R32_UINT, 4},
-                                                                    {VK_FORMAT_R16G16_SFLOAT, 4},
-                                                                    {VK_FORMAT_R32G32_SFLOAT, 8},
-                                                                    {VK_FORMAT_R32G32_UINT, 8},
-                                                                    {VK_FORMAT_R8G8B8A8_UNORM, 4},
-                                                                    {VK_FORMAT_B10G11R11_UFLOAT_PACK32, 4},
-                                                                    {VK_FORMAT_R16G16B16A16_SFLOAT, 8},
-                                                                    {VK_FORMAT_R32G32B32A32_SFLOAT, 16}};
+inline constexpr std::pair<VkFormat, std::uint64_t> texelSizes[] = {
+    {VK_FORMAT_R8_UNORM, 1},      {VK_FORMAT_R16_UINT, 2},      {VK_FORMAT_B10G11R11_UFLOAT_PACK32, 4},
+    {VK_FORMAT_R16_SFLOAT, 2},    {VK_FORMAT_R32_UINT, 4},      {VK_FORMAT_R16G16B16A16_SFLOAT, 8},
+    {VK_FORMAT_R32_SFLOAT, 4},    {VK_FORMAT_R32G32_UINT, 8},   {VK_FORMAT_R32G32B32A32_SFLOAT, 16},
+    {VK_FORMAT_R16G16_SFLOAT, 4}, {VK_FORMAT_R32G32_SFLOAT, 8}, {VK_FORMAT_R8G8B8A8_UNORM, 4},
+};
 
 struct ImageParts {
     int levels = 1;  ///< mip levels: each has half the extent of the one before, rounded down, at least 1
@@ -95,15 +89,14 @@ class Image : public Resource {
     /// Errors: Error where the extent or the layers are above the device's limit or memory runs out; std::logic_error
     /// for no texels, for more levels than mipLevels(), for an array of volumes, and for a format that is not in
     /// `texelSizes`.
-    Image(Context& context, std::string name, glm::ivec2 extent, VkFormat format, ImageParts parts = {});
-    Image(Context& context, std::string name, glm::ivec3 extent, VkFormat format, ImageParts parts = {});
+    Image(Context& context, std::string name, glm::ivec2 extent, VkFormat format, ImageParts parts = {})
+        : Image(context, std::move(name), glm::ivec3(extent, 1), 2, format, parts) {}
+    Image(Context& context, std::string name, glm::ivec3 extent, VkFormat format, ImageParts parts = {})
+        : Image(context, std::move(name), extent, 3, format, parts) {}
 
     VkImage handle() const { return image_.get(); }
     VkImageView view() const { return views_.front().get(); }  ///< all levels and layers
-    /// One level, all layers.
-    VkImageView view(int level) const {
-        return views_.at(levels() > 1 ? static_cast<std::size_t>(level) + 1 : 0).get();
-    }
+    VkImageView view(int level) const { return views_.at(static_cast<std::size_t>(level) + 1).get(); }
     VkFormat format() const { return format_; }
     glm::ivec3 extent() const { return extent_; }   ///< of level 0; z is 1 for a picture
     int dimensions() const { return dimensions_; }  ///< 2 or 3
@@ -117,15 +110,14 @@ class Image : public Resource {
   private:
     Image(Context& context, std::string name, glm::ivec3 extent, int dimensions, VkFormat format, ImageParts parts);
 
-    void createImage(Context& context);
-    void createViews(Context& context, VkImageSubresourceRange all);
+    void addView(Context& context, const VkImageSubresourceRange& range);
 
     glm::ivec3 extent_;
     int dimensions_;
     VkFormat format_;
     ImageParts parts_;
     Owned<VkImage> image_;
-    std::vector<Owned<VkImageView>> views_;  ///< of all levels; then of each, where there are several
+    std::vector<Owned<VkImageView>> views_;  ///< of all levels, then of each
 };
 
 }  // namespace lumulus::gpu

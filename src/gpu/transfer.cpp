@@ -24,12 +24,9 @@ VkBufferImageCopy slices(const ImageLevel& image, std::uint64_t offset, std::uin
     const auto count = static_cast<std::uint32_t>(bytes / sliceBytes(image));
     const bool volume = image.image->dimensions() == 3;
     const auto layer = static_cast<std::uint32_t>(image.layer.value_or(0));
-    VkBufferImageCopy region{};
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, static_cast<std::uint32_t>(image.level),
-                               volume ? 0 : layer + first, volume ? 1 : count};
-    region.imageOffset.z = volume ? static_cast<std::int32_t>(first) : 0;
-    region.imageExtent = {extent.x, extent.y, volume ? count : 1};
-    return region;
+    const VkImageSubresourceLayers part{VK_IMAGE_ASPECT_COLOR_BIT, static_cast<std::uint32_t>(image.level),
+                                        volume ? 0 : layer + first, volume ? 1 : count};
+    return {0, 0, 0, part, {0, 0, volume ? static_cast<int>(first) : 0}, {extent.x, extent.y, volume ? count : 1}};
 }
 
 /// `record` is called for pieces of at most `most` bytes: it records the copy of so many bytes at an offset, from the
