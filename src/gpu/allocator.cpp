@@ -8,27 +8,6 @@
 
 namespace lumulus::gpu {
 
-MemoryBlock::MemoryBlock(MemoryPool& owner, Owned<VkDeviceMemory> made, std::uint64_t size, bool isShared,
-                         void* address)
-    : pool(&owner),
-      memory(std::move(made)),
-      bytes(size),
-      shared(isShared),
-      mapped(static_cast<std::byte*>(address)),
-      free(size) {
-    // a build with AddressSanitizer reports who touches mapped memory that no resource has; others do nothing here
-    if (mapped != nullptr) ASAN_POISON_MEMORY_REGION(mapped, bytes);
-}
-
-MemoryBlock::~MemoryBlock() {
-    if (mapped != nullptr) ASAN_UNPOISON_MEMORY_REGION(mapped, bytes);
-}
-
-void ReturnMemory::operator()(Placement* placement) const {
-    allocator->giveBack(*placement);
-    delete placement;
-}
-
 Allocator::Allocator(VkPhysicalDevice physical, VkDevice device, const VolkDeviceTable& api,
                      std::uint64_t maxAllocationBytes)
     : device_(device), api_(&api), maxAllocationBytes_(maxAllocationBytes) {
@@ -50,7 +29,8 @@ Allocation Allocator::allocate(const std::string& resource, const VkMemoryRequir
                                Tiling tiling) {
     const std::lock_guard lock(mutex_);
     const std::uint32_t type = findMemoryType(needs.memoryTypeBits, where);
-    auto placement = std::make_unique<Placement>(place(pools_[{type, tiling}], type, resource, needs));
+    auto placement = std::make_unique<Placement>(
+        place(pools_.try_emplace({type, tiling}, MemoryPool{type}).first->second, resource, needs));
     placement->id = ++lastId_;
     placement->block->pool->used += needs.size;
     statistics_.used += needs.size;
@@ -59,43 +39,38 @@ Allocation Allocator::allocate(const std::string& resource, const VkMemoryRequir
     return {placement.release(), {this}};
 }
 
-Placement Allocator::place(MemoryPool& pool, std::uint32_t type, const std::string& resource,
-                           const VkMemoryRequirements& needs) {
+Placement Allocator::place(MemoryPool& pool, const std::string& resource, const VkMemoryRequirements& needs) {
+    for (const auto& block : pool.blocks)
+        if (const auto offset = block->free.take(needs.size, needs.alignment))
+            return {block.get(), *offset, needs.size};
     const std::uint64_t quarter = std::clamp(std::bit_floor(pool.used / 4), leastBlockBytes, mostBlockBytes);
     const std::uint64_t blockBytes = std::min(quarter, maxAllocationBytes_);
-    const auto takeFrom = [&](MemoryBlock& block) -> std::optional<Placement> {
-        const auto offset = block.free.take(needs.size, needs.alignment);
-        if (!offset) return std::nullopt;
-        return Placement{&block, *offset, needs.size};
-    };
-    for (const auto& block : pool.blocks)
-        if (const auto found = takeFrom(*block)) return *found;
-    if (needs.size <= blockBytes / 2 && addBlock(pool, type, "block", blockBytes, true) == VK_SUCCESS)
-        return takeFrom(*pool.blocks.back()).value();
-    VkResult result = addBlock(pool, type, resource, needs.size, false);
-    if (result != VK_SUCCESS) {
+    const bool shared = needs.size <= blockBytes / 2 && addBlock(pool, "block", blockBytes, true) == VK_SUCCESS;
+    if (!shared && addBlock(pool, resource, needs.size, false) != VK_SUCCESS) {
         for (auto& [key, other] : pools_) removeUnusedBlocks(other, 0);
-        result = addBlock(pool, type, resource, needs.size, false);
+        checkMemory(addBlock(pool, resource, needs.size, false), "vkAllocateMemory", resource, needs.size);
     }
-    checkMemory(result, "vkAllocateMemory", resource, needs.size);
-    return takeFrom(*pool.blocks.back()).value();
+    MemoryBlock& added = *pool.blocks.back();
+    return {&added, added.free.take(needs.size, needs.alignment).value(), needs.size};
 }
 
-VkResult Allocator::addBlock(MemoryPool& pool, std::uint32_t type, const std::string& name, std::uint64_t bytes,
-                             bool shared) {
+VkResult Allocator::addBlock(MemoryPool& pool, const std::string& name, std::uint64_t bytes, bool shared) {
     if (bytes > maxAllocationBytes_) return VK_ERROR_OUT_OF_DEVICE_MEMORY;  // some drivers take it, and fail in use
-    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, bytes, type};
+    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, bytes, pool.type};
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    const VkResult allocated = api_->vkAllocateMemory(device_, &info, nullptr, &memory);
-    if (allocated != VK_SUCCESS) return allocated;
+    VkResult result = api_->vkAllocateMemory(device_, &info, nullptr, &memory);
+    if (result != VK_SUCCESS) return result;
     Owned<VkDeviceMemory> owned(memory, {device_, api_->vkFreeMemory});
     setObjectName(device_, VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<std::uint64_t>(memory), name);
     void* mapped = nullptr;
-    if ((memory_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
-        const VkResult result = api_->vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &mapped);
+    if ((memory_.memoryTypes[pool.type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
+        result = api_->vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &mapped);
         if (result != VK_SUCCESS) return result;
+        // a build with AddressSanitizer reports who touches memory that no resource has
+        ASAN_POISON_MEMORY_REGION(mapped, bytes);
     }
-    pool.blocks.push_back(std::make_unique<MemoryBlock>(pool, std::move(owned), bytes, shared, mapped));
+    pool.blocks.emplace_back(
+        new MemoryBlock{&pool, std::move(owned), shared, static_cast<std::byte*>(mapped), bytes, FreeList(bytes)});
     statistics_.held += bytes;
     ++statistics_.allocations;
     return VK_SUCCESS;
@@ -105,24 +80,23 @@ VkResult Allocator::addBlock(MemoryPool& pool, std::uint32_t type, const std::st
 void Allocator::removeUnusedBlocks(MemoryPool& pool, std::size_t spares) {
     std::erase_if(pool.blocks, [&](const std::unique_ptr<MemoryBlock>& block) {
         if (!block->free.unused()) return false;
-        if (block->shared && spares > 0) {
-            --spares;
-            return false;
-        }
+        if (block->shared && spares > 0) return spares-- == 0;
+        if (block->mapped != nullptr) ASAN_UNPOISON_MEMORY_REGION(block->mapped, block->bytes);
         statistics_.held -= block->bytes;
         --statistics_.allocations;
         return true;
     });
 }
 
-void Allocator::giveBack(const Placement& placement) {
-    const std::lock_guard lock(mutex_);
-    MemoryBlock& block = *placement.block;
-    if (placement.mapped() != nullptr) ASAN_POISON_MEMORY_REGION(placement.mapped(), placement.bytes);
-    block.free.give(placement.offset, placement.bytes);
-    block.pool->used -= placement.bytes;
-    statistics_.used -= placement.bytes;
-    if (block.free.unused()) removeUnusedBlocks(*block.pool, block.pool->used > 0 ? 1 : 0);
+void ReturnMemory::operator()(Placement* placement) const {
+    const std::unique_ptr<Placement> owned(placement);
+    const std::lock_guard lock(allocator->mutex_);
+    MemoryBlock& block = *placement->block;
+    if (placement->mapped() != nullptr) ASAN_POISON_MEMORY_REGION(placement->mapped(), placement->bytes);
+    block.free.give(placement->offset, placement->bytes);
+    block.pool->used -= placement->bytes;
+    allocator->statistics_.used -= placement->bytes;
+    if (block.free.unused()) allocator->removeUnusedBlocks(*block.pool, block.pool->used > 0 ? 1 : 0);
 }
 
 MemoryStatistics Allocator::statistics() const {

@@ -4,8 +4,8 @@
 #include <mutex>
 #include <utility>
 
+#include "base/free_list.h"
 #include "gpu/device.h"
-#include "gpu/free_list.h"
 
 namespace lumulus::gpu {
 
@@ -14,35 +14,32 @@ enum class Memory {
     host     ///< mapped for as long as the buffer lives, coherent; cached where the device has it
 };
 
-/// Buffers are linear, images optimal. They never share a block, so bufferImageGranularity holds between any two.
+/// Buffers are linear, images optimal. They share no block, so that bufferImageGranularity never matters.
 enum class Tiling { linear, optimal };
 
 /// Bytes of GPU memory.
 struct MemoryStatistics {
-    std::uint64_t used = 0;         ///< taken by buffers and images now, as Vulkan sizes them
-    std::uint64_t held = 0;         ///< allocated from the driver now; what is not used waits for the next resource
+    std::uint64_t used = 0;         ///< taken by buffers and images, as Vulkan sizes them
+    std::uint64_t held = 0;         ///< allocated from the driver; what is not used waits for the next resource
     std::uint64_t peakUsed = 0;     ///< the most that was used at one time
-    std::uint32_t allocations = 0;  ///< living VkDeviceMemory objects, of which a device may allow no more than 4096
+    std::uint32_t allocations = 0;  ///< living VkDeviceMemory objects; many devices allow 4096
 };
 
 struct MemoryPool;
 
 /// One VkDeviceMemory.
 struct MemoryBlock {
-    MemoryBlock(MemoryPool& owner, Owned<VkDeviceMemory> made, std::uint64_t size, bool isShared, void* address);
-    MemoryBlock(const MemoryBlock&) = delete;
-    ~MemoryBlock();
-
     MemoryPool* pool;
     Owned<VkDeviceMemory> memory;
-    std::uint64_t bytes;
     bool shared;        ///< among resources; otherwise of a single one
-    std::byte* mapped;  ///< for the whole life of the block, where the host can see the memory
-    FreeList free;
+    std::byte* mapped;  ///< for the whole life of the block; null where the host cannot see the memory
+    std::uint64_t bytes;
+    FreeList free{bytes};
 };
 
 /// The blocks of one memory type and tiling.
 struct MemoryPool {
+    std::uint32_t type = 0;  ///< of memory
     std::uint64_t used = 0;  ///< bytes
     std::vector<std::unique_ptr<MemoryBlock>> blocks;
 };
@@ -59,10 +56,8 @@ struct Placement {
     std::byte* mapped() const { return block->mapped == nullptr ? nullptr : block->mapped + offset; }
 };
 
-class Allocator;
-
 struct ReturnMemory {
-    Allocator* allocator = nullptr;
+    class Allocator* allocator = nullptr;
 
     void operator()(Placement* placement) const;
 };
@@ -70,10 +65,10 @@ struct ReturnMemory {
 /// Device memory of one resource, given back with its owner, in any order.
 using Allocation = std::unique_ptr<Placement, ReturnMemory>;
 
-/// Divides blocks of device memory among buffers and images. A new block is a quarter of what its pool (memory type and
-/// tiling) uses, from 4 to 64 MiB, so a small program holds little and a large one makes few allocations. A resource
-/// above half of that size gets an allocation of its own. An empty block goes back to the driver, but a pool with
-/// resources keeps one, so that a resource that comes and goes costs nothing. May be used from several threads.
+/// Divides blocks of device memory among buffers and images. A new block is a quarter of what its pool uses, from 4 to
+/// 64 MiB, so a small program holds little and a large one makes few allocations. A resource above half of that size
+/// gets an allocation of its own. An empty block goes back to the driver, but a pool with resources keeps one, so that
+/// a resource that comes and goes costs nothing. May be used from several threads.
 class Allocator {
   public:
     static constexpr std::uint64_t leastBlockBytes = 4ULL << 20U;
@@ -91,11 +86,9 @@ class Allocator {
     friend ReturnMemory;
 
     std::uint32_t findMemoryType(std::uint32_t allowed, Memory where) const;
-    Placement place(MemoryPool& pool, std::uint32_t type, const std::string& resource,
-                    const VkMemoryRequirements& needs);
-    VkResult addBlock(MemoryPool& pool, std::uint32_t type, const std::string& name, std::uint64_t bytes, bool shared);
+    Placement place(MemoryPool& pool, const std::string& resource, const VkMemoryRequirements& needs);
+    VkResult addBlock(MemoryPool& pool, const std::string& name, std::uint64_t bytes, bool shared);
     void removeUnusedBlocks(MemoryPool& pool, std::size_t spares);
-    void giveBack(const Placement& placement);
 
     VkDevice device_;
     const VolkDeviceTable* api_;

@@ -31,11 +31,28 @@ const Binding& findBinding(const ProgramBase& program, const std::vector<Binding
     if (isBuffer && info.kind == VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER && found->buffer->texels() == VK_NULL_HANDLE)
         fail(program, info.name, "needs a buffer of texels");
     if (isBuffer) return *found;
+    const Image& image = *found->image;
     const bool sampled = info.kind == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    if (found->image->dimensions() != info.dimensions || sampled != (found->sampler != Sampler::none))
+    if (image.dimensions() != info.dimensions || image.isArray() != info.isArray ||
+        sampled != (found->sampler != Sampler::none))
         fail(program, info.name,
-             fmt::format("needs a {}D image {} sampler", info.dimensions, sampled ? "with a" : "without a"));
+             fmt::format("needs a {}D image {}{} sampler", info.dimensions, info.isArray ? "array " : "",
+                         sampled ? "with a" : "without a"));
+    if (!sampled && image.levels() > 1 && !found->part) fail(program, info.name, "needs one level of the image");
+    if (found->part && found->part->layer) fail(program, info.name, "cannot be one layer of the image");
     return *found;
+}
+
+/// Adds what the program does to the resource of a binding: to each of its levels.
+void addAccesses(std::vector<Access>& accesses, const Binding& binding, const BindingInfo& info) {
+    const bool isBuffer = binding.buffer != nullptr;
+    const Resource& resource = isBuffer ? static_cast<const Resource&>(*binding.buffer) : *binding.image;
+    const int levels = isBuffer ? 1 : binding.image->levels();
+    for (int level = 0; level < levels; ++level) {
+        if (binding.part && binding.part->level != level) continue;
+        const std::string name = levels > 1 ? fmt::format("{} level {}", resource.name(), level) : resource.name();
+        accesses.push_back({resource.id(), name, info.reads, info.writes, static_cast<std::uint32_t>(level)});
+    }
 }
 
 }  // namespace
@@ -114,17 +131,17 @@ void Commands::record(const ProgramBase& program, const std::vector<Binding>& bi
     std::vector<Access> accesses;
     for (std::size_t i = 0; i < images.size(); ++i) {
         const BindingInfo& info = program.bindings()[i];
-        const auto& [name, buffer, image, sampler] = findBinding(program, bindings, info);
-        if (buffer != nullptr) {
-            buffers[i] = {buffer->handle(), 0, VK_WHOLE_SIZE};
-            texels[i] = buffer->texels();
+        const Binding& binding = findBinding(program, bindings, info);
+        if (binding.buffer != nullptr) {
+            buffers[i] = {binding.buffer->handle(), 0, VK_WHOLE_SIZE};
+            texels[i] = binding.buffer->texels();
         } else {
-            images[i] = {context_->sampler(sampler), image->view(), VK_IMAGE_LAYOUT_GENERAL};
+            const VkImageView view = binding.part ? binding.image->view(binding.part->level) : binding.image->view();
+            images[i] = {context_->sampler(binding.sampler), view, VK_IMAGE_LAYOUT_GENERAL};
         }
+        addAccesses(accesses, binding, info);
         writes.push_back({VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, VK_NULL_HANDLE, info.binding, 0, 1,
                           info.kind, &images[i], &buffers[i], &texels[i]});
-        const Resource& resource = buffer != nullptr ? static_cast<const Resource&>(*buffer) : *image;
-        accesses.push_back({resource.id(), resource.name(), info.reads, info.writes});
     }
     if (arguments != nullptr) accesses.push_back({arguments->id(), arguments->name(), true, false});
     add(arguments != nullptr ? StepKind::indirect : StepKind::dispatch, program.name(), accesses);

@@ -13,11 +13,15 @@ struct Binding {
     Binding(std::string_view bindingName, const Buffer& resource) : name(bindingName), buffer(&resource) {}
     Binding(std::string_view bindingName, const Image& resource, Sampler how = Sampler::none)
         : name(bindingName), image(&resource), sampler(how) {}
+    /// One mip level of an image with all layers: needed to store to an image of several levels.
+    Binding(std::string_view bindingName, const ImageLevel& resource, Sampler how = Sampler::none)
+        : name(bindingName), image(resource.image), sampler(how), part(resource) {}
 
     std::string_view name;
     const Buffer* buffer = nullptr;
     const Image* image = nullptr;
     Sampler sampler = Sampler::none;
+    std::optional<ImageLevel> part;  ///< none: the whole image
 };
 
 enum class StepKind { pass, dispatch, indirect, fill, barrier };

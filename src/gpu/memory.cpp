@@ -3,17 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "base/error.h"
 
 namespace lumulus::gpu {
 namespace {
-
-/// The formats that Lumulus uses, with the bytes of a texel.
-constexpr std::pair<VkFormat, std::uint64_t> texelSizes[] = {
-    {VK_FORMAT_R8_UNORM, 1},   {VK_FORMAT_R16_SFLOAT, 2}, {VK_FORMAT_R16_UINT, 2},
-    {VK_FORMAT_R32_SFLOAT, 4}, {VK_FORMAT_R32_UINT, 4},   {VK_FORMAT_R32G32B32A32_SFLOAT, 16},
-};
 
 std::uint64_t texelBytes(VkFormat format) {
     for (const auto& [known, bytes] : texelSizes)
@@ -21,13 +16,24 @@ std::uint64_t texelBytes(VkFormat format) {
     throw std::logic_error(fmt::format("Lumulus does not use VkFormat {}", static_cast<int>(format)));
 }
 
-std::uint64_t texelCount(glm::ivec3 extent, const std::string& name) {
-    if (extent.x < 1 || extent.y < 1 || extent.z < 1) throw std::logic_error("image " + name + " has no texels");
-    const glm::u64vec3 size(extent);
-    return size.x * size.y * size.z;
+void requirePossible(const Image& image, const VkPhysicalDeviceLimits& limits) {
+    const glm::ivec3 extent = image.extent();
+    if (extent.x < 1 || extent.y < 1 || extent.z < 1)
+        throw std::logic_error("image " + image.name() + " has no texels");
+    if (image.levels() < 1 || image.levels() > mipLevels(extent) || (image.isArray() && image.dimensions() == 3))
+        throw std::logic_error(fmt::format("image {} of {} dimensions cannot have {} levels of {} layers", image.name(),
+                                           image.dimensions(), image.levels(), image.layers()));
+    const glm::uvec4 size(image.extent(), image.layers());
+    const std::uint32_t flat = limits.maxImageDimension2D;
+    const std::uint32_t cube = limits.maxImageDimension3D;
+    const glm::uvec4 limit = image.dimensions() == 3 ? glm::uvec4(cube, cube, cube, 1)
+                                                     : glm::uvec4(flat, flat, 1, limits.maxImageArrayLayers);
+    if (glm::any(glm::greaterThan(size, limit)))
+        throw Error(
+            fmt::format("an image of {}x{}x{} texels in {} layers is above the device's limit of {}x{}x{} in {}",
+                        size.x, size.y, size.z, size.w, limit.x, limit.y, limit.z, limit.w),
+            image.name(), "use a coarser cloud or another device");
 }
-
-constexpr VkImageSubresourceRange allOfIt{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
 
 }  // namespace
 
@@ -64,29 +70,35 @@ Buffer::Buffer(Context& context, std::string name, std::uint64_t count, VkFormat
                              VK_OBJECT_TYPE_BUFFER_VIEW, name_);
 }
 
-Image::Image(Context& context, std::string name, glm::ivec2 extent, VkFormat format)
-    : Image(context, std::move(name), glm::ivec3(extent, 1), 2, format) {}
+int mipLevels(glm::ivec3 extent) {
+    return std::bit_width(static_cast<unsigned>(std::max({extent.x, extent.y, extent.z})));
+}
 
-Image::Image(Context& context, std::string name, glm::ivec3 extent, VkFormat format)
-    : Image(context, std::move(name), extent, 3, format) {}
+glm::ivec3 ImageLevel::extent() const {
+    return glm::max(image->extent() >> level, glm::ivec3(1));
+}
 
-Image::Image(Context& context, std::string name, glm::ivec3 extent, int dimensions, VkFormat format)
-    : Resource(name, texelCount(extent, name) * texelBytes(format)),
-      extent_(extent),
-      dimensions_(dimensions),
-      format_(format) {
-    const glm::uvec3 size(extent);
-    const VkPhysicalDeviceLimits& limits = context.limits();
-    const std::uint32_t side = dimensions == 3 ? limits.maxImageDimension3D : limits.maxImageDimension2D;
-    if (size.x > side || size.y > side || size.z > side)
-        throw Error(fmt::format("an image of {}x{}x{} texels is above the device's limit of {}x{}x{}", size.x, size.y,
-                                size.z, side, side, dimensions == 3 ? side : 1),
-                    name_, "use a coarser cloud or another device");
+int ImageLevel::slices() const {
+    if (image->dimensions() == 3) return extent().z;
+    return layer ? 1 : image->layers();
+}
+
+std::uint64_t ImageLevel::bytes() const {
+    const glm::u64vec3 size(extent());
+    return size.x * size.y * static_cast<std::uint64_t>(slices()) * texelBytes(image->format());
+}
+
+Image::Image(Context& context, std::string name, glm::ivec3 extent, int dimensions, VkFormat format, ImageParts parts)
+    : Resource(std::move(name), 0), extent_(extent), dimensions_(dimensions), format_(format), parts_(parts) {
+    requirePossible(*this, context.limits());
+    for (int i = 0; i < levels(); ++i) bytes_ += level(i).bytes();
+    const glm::uvec3 size(extent_);
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
-    info.imageType = dimensions == 3 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
-    info.format = format;
+    info.imageType = dimensions_ == 3 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
+    info.format = format_;
     info.extent = {size.x, size.y, size.z};
-    info.mipLevels = info.arrayLayers = 1;
+    info.mipLevels = static_cast<std::uint32_t>(levels());
+    info.arrayLayers = static_cast<std::uint32_t>(layers());
     info.samples = VK_SAMPLE_COUNT_1_BIT;
     info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                  VK_IMAGE_USAGE_TRANSFER_DST_BIT;
@@ -97,19 +109,36 @@ Image::Image(Context& context, std::string name, glm::ivec3 extent, int dimensio
     allocation_ = context.allocator().allocate(name_, needs, Memory::device, Tiling::optimal);
     check(api.vkBindImageMemory(context.handle(), handle(), allocation_->memory(), allocation_->offset),
           "vkBindImageMemory");
-    const VkImageViewType type = dimensions == 3 ? VK_IMAGE_VIEW_TYPE_3D : VK_IMAGE_VIEW_TYPE_2D;
-    const VkImageViewCreateInfo viewInfo{
-        VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, nullptr, 0, handle(), type, format, {}, allOfIt};
-    view_ = context.create(api.vkCreateImageView, api.vkDestroyImageView, viewInfo, VK_OBJECT_TYPE_IMAGE_VIEW, name_);
+    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, static_cast<std::uint32_t>(levels()), 0,
+                                      static_cast<std::uint32_t>(layers())};
+    addView(context, all);
+    for (std::uint32_t level = 0; level < all.levelCount; ++level)
+        addView(context, {VK_IMAGE_ASPECT_COLOR_BIT, level, 1, 0, all.layerCount});
     context.immediately([&](VkCommandBuffer commands) {
         VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
         barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
         barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
         barrier.image = handle();
-        barrier.subresourceRange = allOfIt;
-        constexpr VkPipelineStageFlags all = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
-        api.vkCmdPipelineBarrier(commands, all, all, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+        barrier.subresourceRange = all;
+        constexpr VkPipelineStageFlags stages = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+        context.api().vkCmdPipelineBarrier(commands, stages, stages, 0, 0, nullptr, 0, nullptr, 1, &barrier);
     });
+}
+
+void Image::addView(Context& context, const VkImageSubresourceRange& range) {
+    const VkImageViewType picture = isArray() ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+    const VkImageViewType type = dimensions_ == 3 ? VK_IMAGE_VIEW_TYPE_3D : picture;
+    const VkImageViewCreateInfo info{
+        VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, nullptr, 0, handle(), type, format_, {}, range};
+    views_.push_back(context.create(context.api().vkCreateImageView, context.api().vkDestroyImageView, info,
+                                    VK_OBJECT_TYPE_IMAGE_VIEW, name_));
+}
+
+ImageLevel Image::level(int level, std::optional<int> layer) const {
+    if (level < 0 || level >= levels() || (layer && (!isArray() || *layer < 0 || *layer >= layers())))
+        throw std::logic_error(fmt::format("image {} has {} levels of {} layers: there is no level {}, layer {}", name_,
+                                           levels(), layers(), level, layer.value_or(0)));
+    return {this, level, layer};
 }
 
 }  // namespace lumulus::gpu

@@ -13,9 +13,7 @@ struct SpecConstant {
     std::uint32_t id = 0;
     std::uint32_t value = 0;
 
-    static SpecConstant of(std::uint32_t id, std::uint32_t value) { return {id, value}; }
-    static SpecConstant of(std::uint32_t id, std::int32_t value) { return {id, std::bit_cast<std::uint32_t>(value)}; }
-    static SpecConstant of(std::uint32_t id, float value) { return {id, std::bit_cast<std::uint32_t>(value)}; }
+    static SpecConstant of(std::uint32_t id, auto value) { return {id, std::bit_cast<std::uint32_t>(value)}; }
     static SpecConstant of(std::uint32_t id, bool value) { return {id, value ? VK_TRUE : VK_FALSE}; }
 };
 

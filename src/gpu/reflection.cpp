@@ -29,6 +29,7 @@ BindingInfo readBinding(const Compiler& compiler, const spirv_cross::Resource& r
     require(type.image.dim == spv::Dim2D || type.image.dim == spv::Dim3D,
             info.name + " is neither a 2D nor a 3D image");
     info.dimensions = type.image.dim == spv::Dim3D ? 3 : 2;
+    info.isArray = type.image.arrayed;
     return info;
 }
 

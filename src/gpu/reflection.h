@@ -14,6 +14,7 @@ struct BindingInfo {
     std::uint32_t binding = 0;
     VkDescriptorType kind = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;  ///< or another that fits isBuffer() or an image
     int dimensions = 0;                                         ///< of an image: 2 or 3
+    bool isArray = false;                                       ///< an array of 2D images (image2DArray)
     bool reads = true;                                          ///< false for `writeonly`
     bool writes = false;                                        ///< false for `readonly` and for sampled images
 

@@ -9,37 +9,37 @@
 namespace lumulus::gpu {
 namespace {
 
-void requireSize(bool fits, const Resource& resource, std::uint64_t given) {
+void requireSize(bool fits, const Resource& resource, std::uint64_t has, std::uint64_t given) {
     if (fits) return;
-    throw std::logic_error(fmt::format("{} has {} bytes, the transfer {}", resource.name(), resource.bytes(), given));
+    throw std::logic_error(fmt::format("{} has {} bytes, the transfer {}", resource.name(), has, given));
 }
 
-std::uint64_t sliceBytes(const Image& image) {
-    return image.bytes() / static_cast<std::uint64_t>(image.extent().z);
+std::uint64_t sliceBytes(const ImageLevel& image) {
+    return image.bytes() / static_cast<std::uint64_t>(image.slices());
 }
 
-std::uint64_t pieceBytes(const Image& image) {
-    return std::max<std::uint64_t>(1, stagingBytes / sliceBytes(image)) * sliceBytes(image);
-}
-
-VkBufferImageCopy slices(const Image& image, std::uint64_t offset, std::uint64_t bytes) {
+VkBufferImageCopy slices(const ImageLevel& image, std::uint64_t offset, std::uint64_t bytes) {
     const glm::uvec3 extent(image.extent());
-    VkBufferImageCopy region{};
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.imageOffset.z = static_cast<std::int32_t>(offset / sliceBytes(image));
-    region.imageExtent = {extent.x, extent.y, static_cast<std::uint32_t>(bytes / sliceBytes(image))};
-    return region;
+    const auto first = static_cast<std::uint32_t>(offset / sliceBytes(image));
+    const auto count = static_cast<std::uint32_t>(bytes / sliceBytes(image));
+    const bool volume = image.image->dimensions() == 3;
+    const auto layer = static_cast<std::uint32_t>(image.layer.value_or(0));
+    const VkImageSubresourceLayers part{VK_IMAGE_ASPECT_COLOR_BIT, static_cast<std::uint32_t>(image.level),
+                                        volume ? 0 : layer + first, volume ? 1 : count};
+    return {0, 0, 0, part, {0, 0, volume ? static_cast<int>(first) : 0}, {extent.x, extent.y, volume ? count : 1}};
 }
 
-/// `copy` records the copy of so many bytes at an offset, from the staging buffer (const bytes) or to it.
-template <class Byte, class Copy>
-void copyPieces(Context& context, std::span<Byte> bytes, std::uint64_t most, const Copy& copy) {
+/// `record` is called for pieces of at most `most` bytes: it records the copy of so many bytes at an offset, from the
+/// staging buffer (const bytes) or to it.
+template <class Byte, class Record>
+void copyPieces(Context& context, std::span<Byte> bytes, std::uint64_t most, const Record& record) {
     const Buffer staging(context, "staging", std::min<std::uint64_t>(bytes.size(), most), Memory::host);
     std::byte* mapped = staging.mapped<std::byte>().data();
     for (std::uint64_t offset = 0; offset < bytes.size(); offset += most) {
         const auto piece = bytes.subspan(offset, std::min<std::uint64_t>(most, bytes.size() - offset));
         if constexpr (std::is_const_v<Byte>) std::memcpy(mapped, piece.data(), piece.size());
-        context.immediately([&](VkCommandBuffer commands) { copy(commands, staging.handle(), offset, piece.size()); });
+        context.immediately(
+            [&](VkCommandBuffer commands) { record(commands, staging.handle(), offset, piece.size()); });
         if constexpr (!std::is_const_v<Byte>) std::memcpy(piece.data(), mapped, piece.size());
     }
     if constexpr (std::is_const_v<Byte>)
@@ -48,38 +48,55 @@ void copyPieces(Context& context, std::span<Byte> bytes, std::uint64_t most, con
         context.addDownloaded(bytes.size());
 }
 
+template <class Byte>
+void copy(Context& context, const Buffer& buffer, std::span<Byte> bytes) {
+    constexpr bool up = std::is_const_v<Byte>;
+    requireSize(bytes.size() <= buffer.bytes(), buffer, buffer.bytes(), bytes.size());
+    copyPieces(context, bytes, stagingBytes, [&](auto commands, auto staging, auto offset, auto count) {
+        const VkBufferCopy region{up ? 0 : offset, up ? offset : 0, count};
+        context.api().vkCmdCopyBuffer(commands, up ? staging : buffer.handle(), up ? buffer.handle() : staging, 1,
+                                      &region);
+    });
+}
+
+template <class Byte>
+void copy(Context& context, const ImageLevel& level, std::span<Byte> bytes) {
+    VkImage image = level.image->handle();
+    requireSize(bytes.size() == level.bytes(), *level.image, level.bytes(), bytes.size());
+    const std::uint64_t slice = sliceBytes(level);
+    copyPieces(
+        context, bytes, std::max(stagingBytes / slice, std::uint64_t{1}) * slice,
+        [&](auto commands, auto staging, auto offset, auto count) {
+            const VkBufferImageCopy region = slices(level, offset, count);
+            if constexpr (std::is_const_v<Byte>)
+                context.api().vkCmdCopyBufferToImage(commands, staging, image, VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+            else
+                context.api().vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_GENERAL, staging, 1, &region);
+        });
+}
+
+template <class Byte>
+void copy(Context& context, const Image& image, std::span<Byte> bytes) {
+    requireSize(bytes.size() == image.bytes(), image, image.bytes(), bytes.size());
+    for (int i = 0; i < image.levels(); ++i) {
+        const ImageLevel level = image.level(i);
+        copy(context, level, bytes.first(level.bytes()));
+        bytes = bytes.subspan(level.bytes());
+    }
+}
+
 }  // namespace
 
-void uploadBytes(Context& context, Buffer& to, std::span<const std::byte> bytes) {
-    requireSize(bytes.size() <= to.bytes(), to, bytes.size());
-    copyPieces(context, bytes, stagingBytes, [&](auto commands, auto staging, auto offset, auto count) {
-        const VkBufferCopy region{0, offset, count};
-        context.api().vkCmdCopyBuffer(commands, staging, to.handle(), 1, &region);
-    });
+template <class Place, class Byte>
+void transfer(Context& context, const Place& place, std::span<Byte> bytes) {
+    copy(context, place, bytes);
 }
 
-void downloadBytes(Context& context, const Buffer& from, std::span<std::byte> bytes) {
-    requireSize(bytes.size() <= from.bytes(), from, bytes.size());
-    copyPieces(context, bytes, stagingBytes, [&](auto commands, auto staging, auto offset, auto count) {
-        const VkBufferCopy region{offset, 0, count};
-        context.api().vkCmdCopyBuffer(commands, from.handle(), staging, 1, &region);
-    });
-}
-
-void uploadBytes(Context& context, Image& to, std::span<const std::byte> bytes) {
-    requireSize(bytes.size() == to.bytes(), to, bytes.size());
-    copyPieces(context, bytes, pieceBytes(to), [&](auto commands, auto staging, auto offset, auto count) {
-        const VkBufferImageCopy region = slices(to, offset, count);
-        context.api().vkCmdCopyBufferToImage(commands, staging, to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
-    });
-}
-
-void downloadBytes(Context& context, const Image& from, std::span<std::byte> bytes) {
-    requireSize(bytes.size() == from.bytes(), from, bytes.size());
-    copyPieces(context, bytes, pieceBytes(from), [&](auto commands, auto staging, auto offset, auto count) {
-        const VkBufferImageCopy region = slices(from, offset, count);
-        context.api().vkCmdCopyImageToBuffer(commands, from.handle(), VK_IMAGE_LAYOUT_GENERAL, staging, 1, &region);
-    });
-}
+template void transfer(Context&, const Buffer&, std::span<std::byte>);
+template void transfer(Context&, const Buffer&, std::span<const std::byte>);
+template void transfer(Context&, const Image&, std::span<std::byte>);
+template void transfer(Context&, const Image&, std::span<const std::byte>);
+template void transfer(Context&, const ImageLevel&, std::span<std::byte>);
+template void transfer(Context&, const ImageLevel&, std::span<const std::byte>);
 
 }  // namespace lumulus::gpu

@@ -6,28 +6,28 @@
 
 /// One-time copies between host and device through a staging buffer of at most `stagingBytes` or one slice. Each waits
 /// until it is done, ordered after all work submitted before. A buffer is written or read from its start, as far as the
-/// bytes go (std::logic_error where it has not as many); of an image all texels, tightly packed, x fastest
-/// (std::logic_error where the sizes differ).
+/// bytes go (std::logic_error where it has not as many). Of an image go all texels, tightly packed: x fastest, then y,
+/// then z or the layers, then the levels; or those of one level or of one layer of it (std::logic_error where the
+/// sizes differ).
 namespace lumulus::gpu {
 
 inline constexpr std::uint64_t stagingBytes = 16ULL << 20U;
 
-void uploadBytes(Context& context, Buffer& to, std::span<const std::byte> bytes);
-void uploadBytes(Context& context, Image& to, std::span<const std::byte> bytes);
-void downloadBytes(Context& context, const Buffer& from, std::span<std::byte> bytes);
-void downloadBytes(Context& context, const Image& from, std::span<std::byte> bytes);
+/// Uploads const bytes, downloads to others; `place` is a Buffer, an Image or an ImageLevel.
+template <class Place, class Byte>
+void transfer(Context& context, const Place& place, std::span<Byte> bytes);
 
-/// Uploads a vector, array or span to a Buffer or an Image.
+/// Uploads a vector, array or span to a Buffer, an Image or an ImageLevel.
 template <class To, std::ranges::contiguous_range Values>
-void upload(Context& context, To& to, const Values& values) {
-    uploadBytes(context, to, std::as_bytes(std::span(std::ranges::data(values), std::ranges::size(values))));
+void upload(Context& context, To&& to, const Values& values) {
+    transfer(context, to, std::as_bytes(std::span(std::ranges::data(values), std::ranges::size(values))));
 }
 
-/// Downloads as many whole values of type T as a Buffer or an Image holds.
+/// Downloads as many whole values of type T as a Buffer, an Image or an ImageLevel holds.
 template <class T, class From>
 std::vector<T> download(Context& context, const From& from) {
     std::vector<T> values(from.bytes() / sizeof(T));
-    downloadBytes(context, from, std::as_writable_bytes(std::span(values)));
+    transfer(context, from, std::as_writable_bytes(std::span(values)));
     return values;
 }
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-namespace lumulus::gpu {
+namespace lumulus {
 
 /// The free ranges of one block of memory. A request gets the smallest range that fits (best fit, the lowest offset
 /// among equals), so the same calls give the same offsets. Neighbours merge when they come back.
@@ -37,4 +37,4 @@ class FreeList {
     std::set<std::pair<std::uint64_t, std::uint64_t>> bySize_;  ///< size and offset
 };
 
-}  // namespace lumulus::gpu
+}  // namespace lumulus

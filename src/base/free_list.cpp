@@ -1,9 +1,9 @@
-#include "gpu/free_list.h"
+#include "base/free_list.h"
 
 #include <iterator>
 #include <stdexcept>
 
-namespace lumulus::gpu {
+namespace lumulus {
 
 FreeList::FreeList(std::uint64_t bytes) : bytes_(bytes) {
     insert(0, bytes);
@@ -56,4 +56,4 @@ void FreeList::give(std::uint64_t offset, std::uint64_t bytes) {
     insert(begin, end - begin);
 }
 
-}  // namespace lumulus::gpu
+}  // namespace lumulus

@@ -1,4 +1,4 @@
-#include "gpu/free_list.h"
+#include "base/free_list.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace lumulus::gpu {
+namespace lumulus {
 namespace {
 
 TEST(FreeList, TakesTheSmallestRangeThatFits) {
@@ -104,4 +104,4 @@ TEST(FreeList, RandomSequencesAgreeWithAModel) {
 }
 
 }  // namespace
-}  // namespace lumulus::gpu
+}  // namespace lumulus
