@@ -40,7 +40,7 @@ TEST(RendererFog, WithoutMediaNoPassOfItExists) {
 
 TEST(RendererFog, TheFrameStaysOnTheGpuUntilItIsSeenThroughTheFog) {
     EXPECT_THAT(test::render(foggy(1e-4, 0.0)).passes(),
-                ElementsAre("frame background", "trace", "sort", "gather", "shadow volume", "reconstruct",
+                ElementsAre("trace", "sort", "gather", "frame background", "shadow volume", "reconstruct",
                             "light counts", "light field", "march", "frame band", "fog split", "fog light", "fog down",
                             "fog up", "fog join", "frame download"));
 }

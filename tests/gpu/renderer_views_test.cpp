@@ -169,22 +169,23 @@ TEST_P(Views, CoarseSunIsMadeWhole) {
 /// What views from one place share is made once.
 TEST_P(Views, LightIsMadeOnceForViewsFromOnePlace) {
     const auto ring = ringRenderer(scene, 2);
+    ViewState viewer;
     const auto makesLight = [&] {
         for (const PassTime& pass : ring->statistics().passes)
             if (pass.name == "light field") return true;
         return false;
     };
-    const LayeredImage first = ring->draw();
+    const LayeredImage first = ring->draw(ring->sceneView(), viewer);
     EXPECT_TRUE(makesLight());
     View view = ring->sceneView();
     view.tile = Tile{0, 0, scene.image.width / 2, scene.image.height};
-    expectPart(first, ring->draw(view), *view.tile);
+    expectPart(first, ring->draw(view, viewer), *view.tile);
     EXPECT_FALSE(makesLight());
     view.camera.position = dvec3(900.0, 50.0, -300.0);
-    ring->draw(view);
+    ring->draw(view, viewer);
     EXPECT_TRUE(makesLight());
     ring->traceGeneration();
-    ring->draw(view);
+    ring->draw(view, viewer);
     EXPECT_TRUE(makesLight());
 }
 
