@@ -51,7 +51,7 @@ struct Frame {
     std::string json;  ///< the whole reply
     std::vector<std::byte> payload;
 
-    /// A product as floats, halves converted. Errors: ClientError `bad_request` where the view does not have it.
+    /// A product as floats, half floats converted. Errors: ClientError `bad_request` where the view does not have it.
     std::vector<float> values(std::size_t view, const std::string& product) const;
 };
 

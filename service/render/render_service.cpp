@@ -247,7 +247,7 @@ void RenderService::make(Job job) {
 }
 
 void RenderService::makeFrame(Job job, const FrameRequest& frame, const SlotPointer& slot) {
-    // once: of two lights that clients ask for in turns, neither would ever see all its generations
+    // once: of two lights that clients ask for alternately, neither would ever see all its generations
     if (!job.begun) slot->apply(frame.light);
     job.begun = true;
     bool hurry = false;

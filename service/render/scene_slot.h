@@ -48,7 +48,8 @@ class SceneSlot {
 
     /// Index of a cloud. Errors: RequestError `not_found` where the scene has no such cloud.
     std::size_t findCloud(const CloudReference& cloud) const;
-    /// `cloud`: whose extinction changes; all without it. Errors: RequestError where the scene cannot have such a light.
+    /// `cloud`: whose extinction changes; all without it. Errors: RequestError where the scene cannot have such a
+    /// light.
     void apply(const LightChange& light, std::optional<std::size_t> cloud = {});
 
     /// Whether the ring lacks generations under the light of now.
@@ -110,7 +111,7 @@ class SceneSlot {
     const std::atomic<bool>* cancelled_ = nullptr;  // of the job that is drawn
     Clock::time_point deadline_ = Clock::time_point::max();
     std::unique_ptr<Renderer> renderer_;
-    ViewState viewer_;  ///< of all views of the scene, which take their turns; gone before the renderer
+    ViewState viewer_;  ///< of all views of the scene, which are drawn one after the other; gone before the renderer
     SceneDescription description_;
     CostModel costs_;
     NoiseEstimate noise_;

@@ -1,11 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Pixels between the points of the sampling: a block where the picture hardly bends is interpolated bilinearly, any other is
-// listed. What bends is the second difference from point to point, of which an eighth is the error of the interpolation.
+// Pixels between the points of the sampling grid: a block in which second differences from point to point are small is
+// interpolated bilinearly, any other is listed. An eighth of the second difference is the error of the interpolation.
 #include "shared/draw.h"
 
 layout(local_size_x = 64) in;
-/// Blocks that bend are not drawn pixel by pixel but looked at at half the spacing next (interpolate_refined.comp), to which
+/// Listed blocks are not drawn pixel by pixel but sampled at half the spacing next (interpolate_refined.comp), to which
 /// the points half-way in other blocks are given too.
 layout(constant_id = 0) const bool REFINES = false;
 

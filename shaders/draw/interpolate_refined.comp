@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Listed blocks of four by four pixels, with every second pixel of every second row there: their four cells are
-// interpolated where the picture hardly bends at that spacing; others are listed to be drawn pixel by pixel.
+// interpolated where second differences at that spacing are small; others are listed to be drawn pixel by pixel.
 #include "shared/draw.h"
 
 layout(local_size_x = 88) in;  // the cells of LISTED_GROUP blocks, and four more

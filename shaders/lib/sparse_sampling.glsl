@@ -34,7 +34,7 @@ Probe bend(Probe before, Probe here, Probe after) {
 
 Probe sum(Probe a, Probe b) { return Probe(a.light + b.light, a.seen + b.seen, a.distances + b.distances); }
 
-/// Whether what bends is little against the brightest around.
+/// Whether second differences are small against the brightest around.
 bool isWithin(Probe bent, vec3 brightest) {
     const float tolerance = params.sampling.tolerance;
     return all(lessThanEqual(bent.light, tolerance * brightest)) &&

@@ -1,4 +1,4 @@
-// What a photon leaves where it turns: a record for the collector of that place, and estimates in the cells around it.
+// What a photon leaves at a scattering event: a record for the collector of that place, and estimates in the cells around it.
 // It brings its bindings along: trace.comp walks, this file alone writes light.
 #ifndef LUMULUS_LIB_STORE
 #define LUMULUS_LIB_STORE

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Radiance of the collectors towards the eye in each cell with density, their mean by mass, scaled and turned by what was
+// Radiance of the collectors towards the eye in each cell with density, their mean by mass, scaled and corrected by what was
 // counted in the cell (light_counts.comp). Fourth component: 1 where voxels have density.
 #include "shared/draw.h"
 #include "shared/photon.h"

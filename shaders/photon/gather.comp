@@ -40,7 +40,7 @@ void main() {
     const uint last = min(first + GATHER_CHUNK, end);
 
     const int COUNT = BANDS * BANDS;
-    // Unrolled by hand: Mesa 22.3 unrolls up to 32 turns, and 6 bands have 36; sums in memory cost six times as much.
+    // Unrolled by hand: Mesa 22.3 unrolls up to 32 rounds, and 6 bands have 36; sums in memory cost six times as much.
     ivec3 sums[BANDS * BANDS];
     [[unroll]] for (int i = 0; i < COUNT; ++i) sums[i] = ivec3(0);
     for (uint record = first; record < last; ++record) {

@@ -59,18 +59,18 @@ bool survives(inout TraceState state, vec3 factor, float u) {
     return true;
 }
 
-/// A real collision. False: the photon has ended. `turns`: whether it goes on in another direction.
-bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint count, out bool turns) {
+/// A real collision. False: the photon has ended. `scatters`: whether it goes on in another direction.
+bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint count, out bool scatters) {
     ++state.collisions;
-    turns = !FORWARD_CUT || u.x < params.scatterShare;
-    if (!turns) return survives(state, params.straightWeight, u.y);
-    // The sun's first turn is drawn from the optical depths to the sun, not from the map (docs/architecture.md).
+    scatters = !FORWARD_CUT || u.x < params.scatterShare;
+    if (!scatters) return survives(state, params.straightWeight, u.y);
+    // The sun's first scattering is drawn from the shadow volume, not from the map (docs/architecture.md).
     const bool ofSun = state.photon < params.sunPhotons;
-    if (state.turns > 0u || !ofSun) {
+    if (state.scatterings > 0u || !ofSun) {
         const vec3 power = (ofSun ? params.sunPower : params.skyPower) * state.weight;
         if (store(params, voxel, state.direction, power, count * params.invocations + lane)) ++count;
     }
-    ++state.turns;
+    ++state.scatterings;
     return !ABSORBS || survives(state, params.albedo, u.y);
 }
 
@@ -78,7 +78,7 @@ bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint c
 void startPhoton(inout TraceState state) {
     state.draws = 0u;
     state.collisions = 0u;
-    state.turns = 0u;
+    state.scatterings = 0u;
     state.alive = 1u;
 }
 
@@ -87,9 +87,9 @@ void endPhoton(inout TraceState state) {
     state.photon += params.invocations;
 }
 
-/// A new direction: at a turn, or of a photon that enters. One rotation for both: on a CPU all lanes pay for what one
+/// A new direction: at a scattering event, or of a photon that enters. One rotation for both: on a CPU all lanes pay for what one
 /// of them does.
-void turn(inout TraceState state, inout Walk walk, bool enters, vec4 u, vec4 v) {
+void newDirection(inout TraceState state, inout Walk walk, bool enters, vec4 u, vec4 v) {
     const bool ofSun = state.photon < params.sunPhotons;
     const vec3 axis = enters ? lightAxis(params, ofSun, v.z, v.w) : state.direction;
     const ScatterAngle scattered = samplePhase(u.z);
@@ -151,13 +151,13 @@ void main() {
         if (event == WALK_CROSSED) continue;
         const vec4 u = draw(state);
         const vec4 v = draw(state);
-        bool turns = enters;
+        bool scatters = enters;
         if (event == WALK_COLLISION) {
             stepToCollision(walk, majorant * params.extinction);
             const vec3 voxel = (vec3(walk.cell) + walk.offset) * params.cellSize;
             if (u.x * majorant < densityNear(voxel, v.zw)) {
                 ++events;
-                if (!collide(state, voxel, v, lane, count, turns)) {
+                if (!collide(state, voxel, v, lane, count, scatters)) {
                     ++absorbed;
                     endPhoton(state);
                 } else if (state.collisions >= params.collisionLimit) {
@@ -169,7 +169,7 @@ void main() {
             }
         }
         walk.depth = opticalDepth(u.y);
-        if (turns) turn(state, walk, enters, u, v);
+        if (scatters) newDirection(state, walk, enters, u, v);
     }
 
     state.cell = walk.cell;

@@ -26,7 +26,7 @@ struct LeafStatistics {
 struct BlockPush {
     ivec3 size;             // voxels
     ivec3 blocks;           // blocks along each axis
-    mat3 gradientToMetres;  // (voxel → world)⁻ᵀ: turns a gradient per voxel into one per metre
+    mat3 gradientToMetres;  // (voxel → world)⁻ᵀ: takes a gradient per voxel into one per metre
 };
 
 struct SamplePush {

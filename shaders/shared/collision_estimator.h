@@ -1,6 +1,6 @@
-// What photons count in cells: the luminance that turns in each, and in cubes of FLUX_EDGE cells its vector, the sum of
-// luminance times direction. int64 each. A cube's cells and its vector lie together, and the cubes of a block too: what
-// a photon meets next is near, in the cache and in the page.
+// What photons count in cells: the luminance of scattering events in each, and in cubes of FLUX_EDGE cells its vector,
+// the sum of luminance times direction. int64 each. A cube's cells and its vector lie together, and the cubes of a
+// block too: what a photon meets next is near, in the cache and in the page.
 #ifndef LUMULUS_SHARED_DEPOSITS_H
 #define LUMULUS_SHARED_DEPOSITS_H
 

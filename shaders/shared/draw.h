@@ -38,7 +38,7 @@ struct SamplingGrid {
     ivec2 first;  // point
     ivec2 size;
     int spacing;
-    float tolerance;       // of what bends between points, against the brightest of them
+    float tolerance;       // of second differences between points, against the brightest of them
     float depthTolerance;  // the same of distances [m]
 };
 

@@ -1,4 +1,4 @@
-// Phase functions and how to turn by them. Densities are per steradian, ∫ p dω = 1; θ is between the directions of
+// Phase functions and how to sample them. Densities are per steradian, ∫ p dω = 1; θ is between the directions of
 // travel before and after, c = cos θ. Sharp lobes live where c rounds to ±1, so angles are carried as 1−c and 1+c.
 #ifndef LUMULUS_SHARED_PHASE_H
 #define LUMULUS_SHARED_PHASE_H
@@ -109,7 +109,7 @@ SHARED_FN ScatterAngle sampleHg(float g, float u, float scatterFraction) {
 }
 
 /// The unit vector at `angle` from the unit vector `d`, azimuth phi [radians] about it. The basis is that of Duff et
-/// al. 2017; one Newton step keeps the length at 1 over any number of turns.
+/// al. 2017; one Newton step keeps the length at 1 over any number of scattering events.
 SHARED_FN vec3 rotateDirection(vec3 d, ScatterAngle angle, float phi) {
     float s = d.z < 0.0F ? -1.0F : 1.0F;
     float a = -1.0F / (s + d.z);

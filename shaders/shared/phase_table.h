@@ -55,8 +55,8 @@ SHARED_FN TableCell inverseCdfCell(float u) {
     return TableCell(base, clamp((u - begin) / (end - begin), 0.0F, 1.0F));
 }
 
-/// Index of (angle, optical depth) of the red entry of a one-turn table; green and blue follow, and the next optical
-/// depth is 3 further, the next angle 3·singleScatterTauCount.
+/// Index of (angle, optical depth) of the red entry of a single-scattering table; green and blue follow, and the next
+/// optical depth is 3 further, the next angle 3·singleScatterTauCount.
 SHARED_FN int singleScatterIndex(int angle, int tau) {
     return 3 * (angle * singleScatterTauCount + tau);
 }

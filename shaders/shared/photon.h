@@ -27,7 +27,7 @@ struct TraceParams {
     ivec3 cells;         // of the majorant grid
     vec3 cellSize;       // voxels per cell
     float extinction;    // collision coefficient at density 1 [1/m]: σt(1 − f·min albedo)
-    float scatterShare;  // probability that a collision is a turn
+    float scatterShare;  // probability that a collision is a scattering event
     vec3 albedo;
     vec3 straightWeight;    // weight of light that goes straight on at a collision
     float scatterFraction;  // 1 − f: what phase sampling is restricted to
@@ -63,7 +63,7 @@ struct TraceState {
     uint photon;      // number in the generation
     uint draws;       // random numbers drawn
     uint collisions;  // real ones
-    uint turns;
+    uint scatterings;
     uint alive;
 };
 

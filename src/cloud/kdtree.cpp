@@ -29,7 +29,7 @@ struct Split {
     std::size_t middle = 0;  // first sample of the second half
 };
 
-/// Sum over both halves of the squared deviations of density from the half's mean.
+/// Sum over both parts of the squared deviations of density from the part's mean.
 double spread(std::span<const Sample> samples, int axis, float plane) {
     double n[2] = {0, 0}, sum[2] = {0, 0}, squares[2] = {0, 0};
     for (const Sample& s : samples) {

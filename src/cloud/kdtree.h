@@ -58,8 +58,9 @@ struct KdTree {
 };
 
 /// Builds the tree over the samples (Elek 2011, 5.3): split at the sample median, snapped to a voxel boundary, on the
-/// axis that minimises the variance of density in the halves; finalisation splits off space that no sample's radius of
-/// influence covers; optically large leaves are split in the middle. Deterministic; parallel over the nodes of a level.
+/// axis that minimises the variance of density in the two parts; finalisation splits off space that no sample's radius
+/// of influence covers; optically large leaves are split in the middle. Deterministic; parallel over the nodes of a
+/// level.
 KdTree buildKdTree(std::vector<Sample> samples, const glm::ivec3& size, const KdTreeOptions& options);
 
 }  // namespace lumulus::cloud

@@ -17,7 +17,7 @@ constexpr int widestSpacing = 4;
 /// structure, two voxels, each of `voxelPixels` pixels. 1: every pixel is drawn.
 int samplingSpacing(double voxelPixels);
 
-/// Whether what bends from point to point is looked at at half their spacing before it is drawn pixel by pixel.
+/// Whether blocks that cannot be interpolated are sampled at half the spacing before they are drawn pixel by pixel.
 bool hasRefinement(int spacing);
 
 /// Part of the time of drawing every pixel that the points and what is not smooth between them take, on the safe side:
@@ -25,8 +25,8 @@ bool hasRefinement(int spacing);
 double drawnShare(int spacing);
 
 /// Points that a tile needs: one more around its blocks, within the picture; two more below and on the right with
-/// refined. `tolerance`: what may bend from point to point, against the brightest around; distances may by eight voxels
-/// (edge [m]).
+/// refined. `tolerance`: the largest second difference from point to point, against the brightest around; distances may
+/// by eight voxels (edge [m]).
 shared::SamplingGrid samplingGridOf(const Camera& camera, const Tile& tile, int spacing, double tolerance,
                                     double voxelLength);
 
@@ -49,7 +49,7 @@ class Interpolation {
     /// Records the pass over what the first one listed.
     void recordRefined(gpu::Commands& commands, const DrawInputs& inputs, const Tile& pixels) const;
 
-    /// What draws the half-way points of blocks(), and the squares that are listed last.
+    /// What draws the refined points of blocks(), and the squares that are listed last.
     shared::DrawPush refinedPoints(const Tile& pixels) const;
     shared::DrawPush squares(const Tile& pixels) const;
 

@@ -14,7 +14,7 @@ namespace lumulus::draw {
 namespace {
 
 /// Tiles along the edge of a group, a power of two: smaller squares are not worth a task of their own, and where the
-/// projection bends lines larger ones have no known beam.
+/// projection does not keep lines straight larger ones have no known beam.
 constexpr int groupEdge = 16;
 
 bool isParallel(const Camera& camera) {
@@ -71,7 +71,7 @@ Disc beam(const Camera& camera, glm::ivec2 lower, glm::ivec2 upper) {
         return isParallel(camera) ? across(camera, ray.origin - camera.position) : ray.direction;
     };
     const glm::dvec3 middle = pointOf(0.5 * (lower.x + upper.x), 0.5 * (lower.y + upper.y));
-    // The widest ray leaves at a corner; where the projection bends lines, anywhere along the border.
+    // The widest ray leaves at a corner; where the projection does not keep lines straight, anywhere along the border.
     const int along = camera.projection == scene::Projection::panorama ? 8 : 1;
     double reach = 0.0;
     for (int i = 0; i <= along; ++i)

@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-#include "gpu/hazards.h"
+#include "base/hazards.h"
 #include "gpu/memory.h"
 #include "gpu/program.h"
 

@@ -53,8 +53,8 @@ class LightCells {
     gpu::Buffer litCells_;
 };
 
-/// In-scattered radiance towards one eye as a smooth field: the collectors' values on a grid of cells, scaled and turned
-/// by what was counted there. It belongs to a view.
+/// In-scattered radiance towards one eye as a smooth field: the collectors' values on a grid of cells, scaled and
+/// corrected in direction by what was counted there. It belongs to a view.
 class LightField {
   public:
     LightField(gpu::Context& context, const cloud::CellGrid& grid);

@@ -26,8 +26,9 @@ struct ScatteringTables {
     /// tableCell(angleToAxis(angle, angleScale), phaseTableSize).
     std::vector<float> phaseTable;
 
-    /// The smooth parts of the sun's light with one turn (single_scattering.h), divided by exp(−extinctionScale·τ),
-    /// RGB, singleScatterAngleCount × singleScatterTauCount; both empty (H = K = 0) where θc = 0.
+    /// The smooth parts of the sun's light that scattered once (single_scattering.h), divided by
+    /// exp(−extinctionScale·τ), RGB, singleScatterAngleCount × singleScatterTauCount; both empty (H = K = 0) where θc =
+    /// 0.
     std::vector<float> singleScatterH;  ///< of (τs, θ); the whole term carries e^−τv
     std::vector<float> singleScatterK;  ///< of (τs + τv, θ)
     float tauMaximum = 1.0F;            ///< for tauToAxis

@@ -47,7 +47,7 @@ class Clouds {
     CloudRays raysOf(const Ray& ray) const;
     /// Moves the origin of the rays along them.
     void advance(CloudRays& rays, double metres) const;
-    /// Turns the rays into a direction of the world.
+    /// Points the rays along a direction of the world.
     void turn(CloudRays& rays, const glm::dvec3& direction) const;
 
     /// The first collision of all before `limit` metres, by delta tracking (Woodcock 1965).

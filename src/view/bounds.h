@@ -9,7 +9,7 @@
 
 namespace lumulus {
 
-/// Where a cloud, or several of them, are: a box, turned and sheared as its grid is. Metres.
+/// Where a cloud, or several of them, are: a box, rotated and sheared as its grid is. Metres.
 struct Bounds {
     glm::dvec3 centre{0.0};
     glm::dmat3 halfAxes{500.0};       ///< columns: from the centre to the middles of three faces

@@ -27,7 +27,7 @@ struct Tile {
 struct View {
     scene::Camera camera;
     scene::Image image;                     ///< the whole picture, also where only a tile is drawn
-    std::optional<glm::dquat> orientation;  ///< turns camera axes (+X right, +Y up, −Z forward) into the world's;
+    std::optional<glm::dquat> orientation;  ///< rotates camera axes (+X right, +Y up, −Z forward) into the world's;
                                             ///< instead of target and up
     std::optional<Frustum> frustum;         ///< instead of the angle; perspective only
     std::optional<Tile> tile;               ///< drawn alone, bit for bit as in the whole

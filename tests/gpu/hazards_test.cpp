@@ -1,4 +1,4 @@
-#include "gpu/hazards.h"
+#include "base/hazards.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -12,8 +12,7 @@ import pathlib
 import sources
 
 # The folders whose texts are checked. To widen: sources.FOLDERS + ("docs", "README.md", "configs").
-CHECKED = ("src/base", "src/scene", "src/phase", "src/reference", "src/bench", "src/cli", "src/volume",
-           "src/progressive", "vdb", "docs", "README.md", "configs", "tests/style")
+CHECKED = ("src", "shaders", "service", "vdb", "docs", "README.md", "configs", "scripts", "tests/style")
 SKIPPED = ("docs/experiments/", "docs/images/", "tests/style/words_")
 
 WORDS = {

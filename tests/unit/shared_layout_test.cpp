@@ -107,8 +107,8 @@ TEST(SharedLayout, Photon) {
                   straightWeight, scatterFraction, asymmetry, sunDirection, sunCone, faceArea, faceSize, sunThrough,
                   sunPower, skyPower, sunPhotons, photons, generation, stream, collectors, invocations, recordCapacity,
                   stepLimit, collisionLimit, estimatorBase, estimatorEdge, estimatorCells);
-    EXPECT_LAYOUT(trace_comp, TraceState, cell, offset, direction, weight, depth, photon, draws, collisions, turns,
-                  alive);
+    EXPECT_LAYOUT(trace_comp, TraceState, cell, offset, direction, weight, depth, photon, draws, collisions,
+                  scatterings, alive);
     EXPECT_LAYOUT(trace_comp, PhotonRecord, collector, direction, power);
     EXPECT_LAYOUT(trace_comp, TraceCounters, events, nulls, absorbed, escaped, lost, records, reflected,
                   transmittedDiffuse, transmittedDirect, pending, unused);

@@ -2,7 +2,7 @@
 largest over the scenes, src/progressive/bias.cpp has its figures.
 
 Bands: relMSE of pictures with 1 to 6 bands against one with 8 from the same photons, so that there is no noise in it.
-The rest: pictures against two independent references, less the noise that their halves tell. Cells of the light field are
+The rest: pictures against two independent references, less the noise that their two parts tell. Cells of the light field are
 smaller where there are more photons, so that the number of them matters. Errors are divided by the squares of the picture,
 those of billboards by the march's with as many photons: a pixel that billboards leave dark would count many times.
 """

@@ -110,7 +110,7 @@ def add_options(parser):
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--width", type=int, default=320)
     parser.add_argument("--height", type=int, default=180)
-    parser.add_argument("--yaw", type=float, default=0.0, help="degrees that the camera is turned by")
+    parser.add_argument("--yaw", type=float, default=0.0, help="degrees that the camera is rotated by")
 
 
 def main(options):

@@ -80,21 +80,21 @@ def filter_table(bench):
             print_row([label] + cells)
 
 
-def turn_table(bench, frames=5, degrees=0.1):
-    """A slow turn: rms of the change of scattered light between frames that the exact filter does not show, in parts of
+def rotation_table(bench, frames=5, degrees=0.1):
+    """A slow rotation: rms of the change of scattered light between frames that the exact filter does not show, in parts of
     the rms of its own change."""
     scattering, g = fog_scenes.MEDIA[2]
     scenes = [fog_scenes.scene_text(fog_scenes.medium(scattering, g), i * degrees) for i in range(frames)]
     pictures = [fog_scenes.night(*bench.size(*SIZE), i * degrees) for i in range(frames)]
     for i, picture in enumerate(pictures):
-        fog_scenes.write(bench.path(f"turn{i}.exr"), *picture)
+        fog_scenes.write(bench.path(f"rotation{i}.exr"), *picture)
     sharp = [sharp_light(scattering, *picture) for picture in pictures]
-    exact = [bench.gathered(f"turn{i}.exr", scene) for i, scene in enumerate(scenes)]
+    exact = [bench.gathered(f"rotation{i}.exr", scene) for i, scene in enumerate(scenes)]
     change = numpy.diff(numpy.array(exact) - sharp, axis=0)
     print()
     print_head(["filter", "change that the exact filter does not show"])
     for label, overrides in FILTERS:
-        images = [bench.composite(f"turn{i}.exr", scene, overrides)[0] for i, scene in enumerate(scenes)]
+        images = [bench.composite(f"rotation{i}.exr", scene, overrides)[0] for i, scene in enumerate(scenes)]
         excess = numpy.diff(numpy.array(images) - sharp, axis=0) - change
         print_row([label, f"{numpy.sqrt((excess ** 2).mean() / (change ** 2).mean()):.3f}"])
 
@@ -165,7 +165,7 @@ def picture(bench):
     sheet.save(ROOT / "docs/images/fog-night.png", optimize=True)
 
 
-TABLES = {"filters": filter_table, "turn": turn_table, "sizes": size_table, "time": time_table, "picture": picture}
+TABLES = {"filters": filter_table, "rotation": rotation_table, "sizes": size_table, "time": time_table, "picture": picture}
 
 
 def add_options(parser):

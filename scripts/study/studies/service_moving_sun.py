@@ -14,7 +14,7 @@ def described(frames):
     totals = [frame["milliseconds"]["total"] for frame in frames]
     return {"frames": len(frames), "met": sum(frame["budget_met"] for frame in frames) / len(frames),
             "p50_ms": percentile(totals, 0.5), "p99_ms": percentile(totals, 0.99), "worst_ms": max(totals),
-            "sun_depth_ms": percentile([frame["milliseconds"]["passes"].get("sun depth", 0.0) for frame in frames], 0.5),
+            "shadow_volume_ms": percentile([frame["milliseconds"]["passes"].get("shadow volume", 0.0) for frame in frames], 0.5),
             "reduction": percentile([frame["reduction"] for frame in frames], 0.5),
             "sun_reduction": percentile([frame.get("sun_reduction", 1) for frame in frames], 0.5)}
 

@@ -15,7 +15,8 @@ class Chain {
     /// `fog.filter` must be naive or masked.
     Chain(gpu::Context& context, const glm::ivec2& size, const scene::Fog& fog);
 
-    /// Records what turns the layer into what is seen of it, in `result`. `largest` bounds its spread in pixels.
+    /// Records the passes that filter the layer and write what is seen of it to `result`. `largest` bounds its spread
+    /// in pixels.
     void record(gpu::Commands& commands, const LayerInputs& layer, double largest, const gpu::Image& result);
 
   private:

@@ -2,9 +2,9 @@
 
 #include <glm/glm.hpp>
 
-#include "gpu/clear.h"
 #include "gpu/commands.h"
 #include "gpu/groups.h"
+#include "gpu/transfer.h"
 #include "shared/fog.h"
 
 namespace lumulus::fog {

@@ -11,7 +11,8 @@ class Scatter {
   public:
     Scatter(gpu::Context& context, const glm::ivec2& size, const PyramidStep& step);
 
-    /// Records what turns the layer into what is seen of it, in `result`. `largest` bounds its spread in pixels.
+    /// Records the passes that filter the layer and write what is seen of it to `result`. `largest` bounds its spread
+    /// in pixels.
     void record(gpu::Commands& commands, const LayerInputs& layer, double largest, const gpu::Image& result);
 
   private:

@@ -27,7 +27,8 @@ struct Options {
     /// Whether generations beyond the p-th will replace the oldest. A picture that stops at p needs no slots: they are
     /// the bulk of the memory.
     bool keepRing = false;
-    /// Cells in which the luminance that turns is counted, whatever its direction: finer than collectors can be.
+    /// Cells in which the luminance of scattering events is counted, whatever its direction: finer than collectors can
+    /// be.
     cloud::CellGrid estimates;
     /// Whether generations of even and of odd number stay apart until the sum takes them: pictures of both tell how
     /// noisy a picture of all is. Not with a ring.

@@ -64,7 +64,7 @@ def layer_cases():
                         {"reflected": 1.0 - through, "transmitted": through, "absorbed": 0.0}, tau=tau, g=0, albedo=1,
                         mu0=1, photons=photons)
     yield doubled("τ 1e6, g .85, albedo .99", 1e6, 0.85, 0.99, 20000)
-    yield slab_case("g −.999, τ 1", "in one dimension, where each turn reverses, R = τ/(1+τ); the lobe's width moves it "
+    yield slab_case("g −.999, τ 1", "in one dimension, where each scattering event reverses, R = τ/(1+τ); the lobe's width moves it "
                     "by the order of 1 − |g|: ±.001 allowed", {"reflected": 0.5, "transmitted": 0.5}, 1e-3, tau=1,
                     g=-0.999, albedo=1, mu0=1, photons=200000)
     for g in (0.0, 1e-6, 0.85):

@@ -15,7 +15,7 @@ def maps(spp):
     yield Case("1 photon", "a finite picture, the photon accounted for", runs)
     for bands in range(1, 9):
         yield against_reference(f"bands {bands}", spp, f"photon_map.bands={bands}", bound=0.15 if bands < 3 else 0.05)
-    wide = "the light of one turn is summed for small angles only: 15° is what it is made for"
+    wide = "the light of one scattering event is summed for small angles only: 15° is what it is made for"
     uncut = "four bands do not hold a peak that is not cut: the row of six has it"
     for cut, reason in ((0, uncut), (45, wide), (90, wide)):
         yield against_reference(f"forward_cut {cut}°", spp, f"photon_map.forward_cut={cut}", reason=reason)

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-namespace lumulus::gpu {
+namespace lumulus {
 
 /// What one command does to one resource, or to one mip level of an image.
 struct Access {
@@ -49,4 +49,4 @@ class HazardTracker {
     std::map<std::pair<std::uint64_t, std::uint32_t>, Users> users_;  ///< by resource and level
 };
 
-}  // namespace lumulus::gpu
+}  // namespace lumulus
