@@ -58,7 +58,7 @@ struct Light {
 };
 
 /// The photon map: a ring of generations, each [collector][RGB][bands²] int64 of spherical-harmonic coefficients and
-/// then the estimates (shared/estimates.h), int64, and their exact sum.
+/// then the estimates (shared/collision_estimator.h), int64, and their exact sum.
 class PhotonMap {
   public:
     /// `cloud` must outlive the map. Errors: InputError where the coefficients do not fit into the budget, or those of
