@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "view/view.h"
 #include "service/values/requests.h"
+#include "view/view.h"
 
 namespace lumulus::service {
 

@@ -18,7 +18,7 @@ struct InstanceParams {
     vec3 radianceScale;  // voxel → texture coordinates of the in-scattered radiance
     mat3 voxelToShadow;  // voxel → texture coordinates of the shadow volume
     vec3 shadowOffset;
-    vec3 sunIrradiance;    // that reaches the instance
+    vec3 sunIrradiance;  // that reaches the instance
     vec3 albedo;
     vec3 extinctionScale;  // κ = 1 − ω f: optical depth of the truncated medium per true optical depth
     float scatterShare;    // 1 − f

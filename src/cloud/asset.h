@@ -8,8 +8,8 @@
 #include "cloud/kdtree.h"
 #include "gpu/memory.h"
 #include "scene/scene.h"
-#include "vdb/quantise.h"
 #include "vdb/placed_volume.h"
+#include "vdb/quantise.h"
 
 namespace lumulus::cloud {
 
@@ -57,8 +57,8 @@ struct PreparationTimes {
 /// What one density field needs once: prepared for photons and drawing, immutable, on the GPU once, shared by all
 /// instances that show it. It knows the shape of its voxels and not where in the world it stands.
 struct Asset {
-    glm::ivec3 size{0};         ///< voxels
-    glm::dmat3 voxelToMetres;   ///< edges of a voxel as they lie in the world, columns [m]
+    glm::ivec3 size{0};        ///< voxels
+    glm::dmat3 voxelToMetres;  ///< edges of a voxel as they lie in the world, columns [m]
     double voxelVolume = 0.0;  ///< m³
     vdb::DensityFormat format = vdb::DensityFormat::r16f;
     gpu::Image density;         ///< normalised: 1 is the field's maximum

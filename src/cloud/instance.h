@@ -13,12 +13,12 @@ namespace lumulus::cloud {
 /// One cloud of the world: an asset, where it stands and what it is made of. The light in it belongs to it too
 /// (light::InstanceLight) and is kept beside it.
 struct Instance {
-    std::string name;              ///< by which scenes and clients name it
-    const Asset* asset = nullptr;  ///< null: nothing is there (no voxel, or an extinction of 0)
+    std::string name;               ///< by which scenes and clients name it
+    const Asset* asset = nullptr;   ///< null: nothing is there (no voxel, or an extinction of 0)
     glm::dmat3 voxelToMetres{1.0};  ///< the asset's, also where there is none
-    glm::dvec3 origin{0.0};        ///< where the corner of voxel (0,0,0) lies [m], without the offset
-    glm::dvec3 offset{0.0};        ///< by which it has moved since the scene was made [m]
-    Bounds bounds;                 ///< of the density, without the offset
+    glm::dvec3 origin{0.0};         ///< where the corner of voxel (0,0,0) lies [m], without the offset
+    glm::dvec3 offset{0.0};         ///< by which it has moved since the scene was made [m]
+    Bounds bounds;                  ///< of the density, without the offset
     phase::ScatteringMedium medium;
     double sceneExtinction = 0.0;  ///< `extinction` of the scene [1/m]; the medium's is in proportion
 

@@ -210,8 +210,8 @@ gpu::Image majorantImage(gpu::Context& context, const MajorantGrid& grid) {
     return image;
 }
 
-KdTree makeTree(const std::vector<Sample>& samples, const vdb::Volume& volume, const glm::dmat3& voxelToMetres, const Blocks& blocks,
-                const PrepareOptions& options, double voxelVolume) {
+KdTree makeTree(const std::vector<Sample>& samples, const vdb::Volume& volume, const glm::dmat3& voxelToMetres,
+                const Blocks& blocks, const PrepareOptions& options, double voxelVolume) {
     const BlockDensity blockDensity(volume.density, volume.size, volume.maximum);
     KdTreeOptions tree;
     tree.densityThreshold = options.preparation.densityThreshold;

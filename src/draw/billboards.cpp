@@ -66,8 +66,10 @@ std::vector<shared::Billboard> makeBillboards(std::span<const cloud::Instance* c
     return billboards;
 }
 
-Billboards::Billboards(gpu::Context& context, std::span<const cloud::Instance* const> instances, const DrawFeatures& features)
-    : instances_(instances.begin(), instances.end()), program_(context, "billboards", spirv::billboards_comp, features.constants()) {
+Billboards::Billboards(gpu::Context& context, std::span<const cloud::Instance* const> instances,
+                       const DrawFeatures& features)
+    : instances_(instances.begin(), instances.end()),
+      program_(context, "billboards", spirv::billboards_comp, features.constants()) {
     for (const cloud::Instance* instance : instances_) {
         shares_.push_back(billboardShares(context, *instance->asset));
         reach_.push_back(0.0);

@@ -12,8 +12,8 @@
 
 namespace lumulus::draw {
 
-/// One billboard a collector of each instance (all have assets), relative to the eye, nearest first (ties by instance and index).
-/// `shares`: of each instance's collectors, see billboardShares().
+/// One billboard a collector of each instance (all have assets), relative to the eye, nearest first (ties by instance
+/// and index). `shares`: of each instance's collectors, see billboardShares().
 std::vector<shared::Billboard> makeBillboards(std::span<const cloud::Instance* const> instances,
                                               std::span<const std::vector<float>> shares, const Camera& camera);
 
@@ -25,7 +25,8 @@ class Billboards {
 
     class View;
     /// Records one pass over some pixels; the fastest where they begin at multiples of TILE_EDGE.
-    void record(gpu::Commands& commands, const DrawInputs& inputs, const View& view, const shared::DrawPush& push) const;
+    void record(gpu::Commands& commands, const DrawInputs& inputs, const View& view,
+                const shared::DrawPush& push) const;
 
     /// Radius of the largest of an instance [m].
     double reach(std::size_t instance) const { return reach_[instance]; }

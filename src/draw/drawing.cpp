@@ -9,8 +9,8 @@ namespace lumulus::draw {
 namespace {
 
 /// The single-scattering tables of all media as one picture, one below the other. Its texels are the four corners of a
-/// cell (this depth and the next, at this angle and the next), so that one load serves a bilinear look-up: optical depth
-/// across, angle down; where colours differ, three texels a cell. Media without a table have zeros.
+/// cell (this depth and the next, at this angle and the next), so that one load serves a bilinear look-up: optical
+/// depth across, angle down; where colours differ, three texels a cell. Media without a table have zeros.
 gpu::Image tablePicture(gpu::Context& context, const char* name, std::span<const std::vector<float>* const> tables,
                         bool grey) {
     const int channels = grey ? 1 : 3;

@@ -15,8 +15,8 @@ struct InstanceLight {
     cloud::CellGrid estimatorGrid;             ///< of the collision estimator
     std::optional<photon::PhotonMap> photons;  ///< none where no photon would be of use
     std::optional<ShadowVolume> shadow;        ///< none without a sun
-    int shadowReduction = 0;  ///< of the shadow volume that is up to date (1: whole); 0: it is not
-    bool sharpening = false;  ///< a whole shadow volume is in the making
+    int shadowReduction = 0;                   ///< of the shadow volume that is up to date (1: whole); 0: it is not
+    bool sharpening = false;                   ///< a whole shadow volume is in the making
     std::optional<LightCells> cells;
     bool counted = false;       ///< what of `cells` no view changes is up to date
     std::uint64_t version = 1;  ///< of the photons' light: views know by it whether their light fields are up to date

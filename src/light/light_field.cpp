@@ -144,9 +144,10 @@ void LightField::record(gpu::Commands& commands, const LightCells& of, const glm
                        {"LitCells", of.litCells_}},
                       values, gpu::linearGroups(of.lit_.occupied, 64));
     commands.barrier("light cells");
-    commands.dispatch(of.smoothProgram_,
-                      {{"cells", cells_}, {"ownShare", of.ownShare_}, {"lightField", image_}, {"LitCells", of.litCells_}},
-                      values, gpu::linearGroups(of.lit_.numbers.size(), 64));
+    commands.dispatch(
+        of.smoothProgram_,
+        {{"cells", cells_}, {"ownShare", of.ownShare_}, {"lightField", image_}, {"LitCells", of.litCells_}}, values,
+        gpu::linearGroups(of.lit_.numbers.size(), 64));
 }
 
 }  // namespace lumulus::light

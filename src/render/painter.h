@@ -21,7 +21,8 @@ class Painter {
     /// Errors: InputError where the device cannot hold the volumes of all clouds in one image.
     Painter(gpu::Context& context, const World& world, const scene::Draw& draw);
 
-    /// Spacing in pixels of the points of sparse sampling for a view, chosen so that the farthest voxels still cover it.
+    /// Spacing in pixels of the points of sparse sampling for a view, chosen so that the farthest voxels still cover
+    /// it.
     int samplingSpacing(const World& world, const Camera& camera) const;
     /// The part of the view's tile in which clouds may be seen. Voxels reach half a voxel farther than their bounds,
     /// billboards as far as the largest.

@@ -138,8 +138,14 @@ LayeredImage Renderer::draw(const View& view, ViewState& viewState) {
         light.photons->settle();
         frame::addTimes(s.work.times, light.photons->times());
     }
-    PictureOrder order{s.work, *s.world, s.painter ? &*s.painter : nullptr, s.fog ? &*s.fog : nullptr,
-                       s.photonMap.bands, s.sunAllowed, s.check, s.report};
+    PictureOrder order{s.work,
+                       *s.world,
+                       s.painter ? &*s.painter : nullptr,
+                       s.fog ? &*s.fog : nullptr,
+                       s.photonMap.bands,
+                       s.sunAllowed,
+                       s.check,
+                       s.report};
     LayeredImage image = order.picture(viewState.state(), view);
     s.statistics.passes.clear();
     addTimes(s.statistics, s.work.times);

@@ -66,8 +66,8 @@ struct Generations {
 };
 
 /// What belongs to a viewer and outlives a frame: its camera and the one before, light fields towards its eye, what it
-/// has sampled. Owned by whoever looks (a channel of the service, a render command) and handed to each draw; it must not
-/// outlive the renderer that drew with it.
+/// has sampled. Owned by whoever looks (a channel of the service, a render command) and handed to each draw; it must
+/// not outlive the renderer that drew with it.
 class ViewState {
   public:
     ViewState();

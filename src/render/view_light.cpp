@@ -25,8 +25,7 @@ light::CollisionEstimates estimates(const light::InstanceLight& light, const pha
                                     const photon::Light& counted) {
     const photon::PhotonMap& photons = *light.photons;
     const double moment = bands > 1 ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
-    return {*counted.counts,       photons.estimatorBase(), counted.unit,
-            photons.photonPower(), photons.massScale(),     moment};
+    return {*counted.counts, photons.estimatorBase(), counted.unit, photons.photonPower(), photons.massScale(), moment};
 }
 
 void recordShadow(gpu::Commands& commands, const cloud::Instance& instance, light::InstanceLight& light,
@@ -62,8 +61,7 @@ glm::vec3 eyeVoxel(const cloud::Instance& instance, const Camera& camera) {
     return glm::vec3(instance.toVoxel(eye));
 }
 
-void lightView(GpuWork& work, World& world, ViewState::State& view, photon::Part part, int bands,
-               int shadowReduction) {
+void lightView(GpuWork& work, World& world, ViewState::State& view, photon::Part part, int bands, int shadowReduction) {
     view.instances.resize(world.instances.size());
     for (const std::size_t i : world.visible())
         if (world.light[i].photons)

@@ -155,8 +155,8 @@ void Maker::lightUp(std::size_t number) {
         throw InputError("a generation would hold " + std::to_string(each) + " photons, more than 4026531840",
                          "photon_map.photons", "ask for more generations or fewer photons");
     // progressive: as fine as any number of photons may ask for
-    light.estimatorGrid = light::lightGrid(
-        *instance.asset, options_.progressive ? std::numeric_limits<std::uint64_t>::max() : photons);
+    light.estimatorGrid =
+        light::lightGrid(*instance.asset, options_.progressive ? std::numeric_limits<std::uint64_t>::max() : photons);
     photon::Options options;
     options.photonsPerGeneration = each;
     options.generations = wanted.generations;

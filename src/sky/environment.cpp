@@ -12,9 +12,7 @@ glm::dvec3 Environment::radiance(const glm::dvec3&) const {
 EnvironmentSample Environment::sample(const glm::dvec2& u) const {
     const double height = 1.0 - 2.0 * u.x, across = 2.0 * std::sqrt(u.x * (1.0 - u.x));
     const double azimuth = 2.0 * std::numbers::pi * u.y;
-    return {{across * std::cos(azimuth), height, across * std::sin(azimuth)},
-            radiance_,
-            0.25 * std::numbers::inv_pi};
+    return {{across * std::cos(azimuth), height, across * std::sin(azimuth)}, radiance_, 0.25 * std::numbers::inv_pi};
 }
 
 glm::dvec3 Environment::sunTransmittance(const glm::dvec3&, const glm::dvec3&) const {

@@ -20,8 +20,8 @@ struct AerialPerspective {
     glm::dvec3 transmittance{1.0};  ///< per channel
 };
 
-/// What surrounds the world. Everybody who needs light of the sky asks here and nowhere else. Its first kind is constant:
-/// the same radiance from everywhere, without air. Lengths are metres, directions unit vectors.
+/// What surrounds the world. Everybody who needs light of the sky asks here and nowhere else. Its first kind is
+/// constant: the same radiance from everywhere, without air. Lengths are metres, directions unit vectors.
 class Environment {
   public:
     Environment(const scene::Sky& sky) : radiance_(sky.radiance) {}  // implicit: a scene's sky is an environment

@@ -25,3 +25,5 @@ foreach(group Layers furnace Fog)
 endforeach()
 set_tests_properties(known.published_layers known.random_layers known.stiff_layers known.stiff_furnace known.stiff_fog
                      PROPERTIES LABELS known-answer)
+# Their cases have limits of time of their own, on all cores.
+set_tests_properties(known.stiff_layers known.stiff_furnace known.stiff_fog PROPERTIES RUN_SERIAL TRUE)
