@@ -1,15 +1,15 @@
 // What photons count in cells: the luminance of scattering events in each, and in cubes of FLUX_EDGE cells its vector,
 // the sum of luminance times direction. int64 each. A cube's cells and its vector lie together, and the cubes of a
 // block too: what a photon meets next is near, in the cache and in the page.
-#ifndef LUMULUS_SHARED_DEPOSITS_H
-#define LUMULUS_SHARED_DEPOSITS_H
+#ifndef LUMULUS_SHARED_COLLISION_ESTIMATOR_H
+#define LUMULUS_SHARED_COLLISION_ESTIMATOR_H
 
 #include "shared/prelude.h"
 
 SHARED_BEGIN
 
 /// Cells along the edge of a cube. Directions are noisier than amounts and change more slowly in space
-/// (docs/error-time.md).
+/// (docs/experiments/light-field-direction.md).
 const int FLUX_EDGE = 2;
 const int CUBE_CELLS = FLUX_EDGE * FLUX_EDGE * FLUX_EDGE;
 /// int64 of a cube: its cells, then the vector.

@@ -18,8 +18,8 @@ namespace spirv {
 }  // namespace spirv
 
 /// Photons of the map for each cell with density: as fine as the light changes near the surface, as coarse as the noise
-/// asks (docs/error-time.md has the figures). Where there are few photons noise is the lesser evil, so that there are
-/// this many cells along the longest side at least.
+/// asks (docs/experiments/light-field-cells.md has the figures). Where there are few photons noise is the lesser evil,
+/// so that there are this many cells along the longest side at least.
 constexpr double photonsInCell = 16.0, fewestAlong = 32.0;
 /// 64 MiB each for the counts, the cells and the smoothed field.
 constexpr std::uint64_t maxCells = 1ULL << 22U;

@@ -50,7 +50,6 @@ bool setExtinction(World& world, double extinction, std::optional<std::size_t> c
         if (extinction == instance.sceneExtinction) continue;
         instance.medium.extinction *= extinction / instance.sceneExtinction;
         instance.sceneExtinction = extinction;
-        if (light.photons) light.photons->setExtinction(instance.medium.extinction);
         light.changed();
         light.shadowReduction = 0;
         changed = true;

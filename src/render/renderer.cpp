@@ -78,8 +78,10 @@ int Renderer::generationsWanted() const {
 void Renderer::traceGeneration() {
     State& s = *state_;
     const Stopwatch watch;
-    for (light::InstanceLight& light : s.world->light) {
-        if (light.photons) light.photons->trace(light.sun, s.world->lights.environment);
+    for (std::size_t i = 0; i < s.world->light.size(); ++i) {
+        light::InstanceLight& light = s.world->light[i];
+        const double extinction = s.world->instances[i].medium.extinction;
+        if (light.photons) light.photons->trace(light.sun, s.world->lights.environment, extinction);
         light.changed();
     }
     ++s.sinceChange;

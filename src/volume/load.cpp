@@ -131,10 +131,4 @@ CloudVolumes loadClouds(const scene::Scene& scene, const Report& report) {
     return result;
 }
 
-CloudVolume loadCloudVolume(const scene::Cloud& cloud, double memoryBudget, const Report& report) {
-    Source source{&cloud, 0, load(cloud, memoryBudget, report)};
-    source.loaded.volume.toWorld = source.placeUnder(cloud.transform, "cloud.0.transform");
-    return {std::move(source.loaded.volume), std::move(source.loaded.warnings)};
-}
-
 }  // namespace lumulus

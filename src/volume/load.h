@@ -34,13 +34,4 @@ struct CloudVolumes {
 /// interrupted.
 CloudVolumes loadClouds(const scene::Scene& scene, const Report& report = noReport);
 
-/// The density of one cloud, with what there is to warn of.
-struct CloudVolume {
-    vdb::Volume volume;
-    std::vector<std::string> warnings;
-};
-
-/// Loads or makes one cloud, its transform applied. `memoryBudget` in MiB. Errors: those of loadClouds.
-CloudVolume loadCloudVolume(const scene::Cloud& cloud, double memoryBudget, const Report& report = noReport);
-
 }  // namespace lumulus

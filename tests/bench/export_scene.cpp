@@ -14,9 +14,9 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "scene/load.h"
+#include "support/first_volume.h"
 #include "vdb/write.h"
 #include "view/camera.h"
-#include "volume/load.h"
 
 namespace lumulus {
 
@@ -89,7 +89,7 @@ Json sceneJson(const scene::Scene& scene, const vdb::Volume& volume) {
 void run(const std::string& path, const std::filesystem::path& folder, const std::vector<std::string>& overrides) {
     const scene::Scene scene = scene::loadScene(path, overrides);
     if (scene.clouds.empty()) throw InputError("there is no cloud to export", path, "give the scene one");
-    const vdb::Volume volume = loadCloudVolume(scene.clouds[0], scene.preparation.memoryBudget).volume;
+    const vdb::Volume volume = test::firstVolume(scene);
     const std::string json = sceneJson(scene, volume).dump(2) + "\n";
     std::filesystem::create_directories(folder);
     vdb::write(forCycles(volume), folder / "cloud.vdb");

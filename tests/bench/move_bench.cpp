@@ -84,8 +84,8 @@ void print(const char* what, double seconds, double sample) {
 
 void run(const std::string& path, const std::vector<std::string>& overrides) {
     const scene::Scene scene = scene::loadScene(path, overrides);
-    const CloudVolume cloud = loadCloudVolume(scene.clouds.at(0), scene.preparation.memoryBudget);
-    reference::Renderer tracer(scene, {cloud.volume}, reference::Majorant::local, 1);
+    const CloudVolumes clouds = loadClouds(scene);
+    reference::Renderer tracer(scene, clouds.placed(), reference::Majorant::local, 1);
     Mover march(scene, scene::DrawMode::march), billboards(scene, scene::DrawMode::billboards);
     std::vector<double> samples, generations;
     const auto sampleOnce = [&] { tracer.pass([](std::uint64_t) { return true; }); };

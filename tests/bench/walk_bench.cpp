@@ -18,7 +18,7 @@
 #include "bench/plain_walk.h"
 #include "gpu/context.h"
 #include "scene/load.h"
-#include "volume/load.h"
+#include "support/first_volume.h"
 
 namespace lumulus::bench {
 
@@ -172,7 +172,7 @@ void printPasses(const photon::PhotonMap& map, const Measured& gpu, const Measur
 
 void run(const std::string& path, const std::vector<std::string>& overrides) {
     const scene::Scene scene = scene::loadScene(path, overrides);
-    const vdb::Volume volume = loadCloudVolume(scene.clouds.at(0), scene.preparation.memoryBudget).volume;
+    const vdb::Volume volume = test::firstVolume(scene);
     const photon::Medium medium = mediumOf(scene, volume);
     gpu::Context context({});
     const cloud::Asset cloud = cloud::prepare(context, volume, prepareOptions(scene, medium));

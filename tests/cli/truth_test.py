@@ -276,11 +276,14 @@ class Slab(CliTest):
 
     def test_interrupted(self):
         for more in ((), ("--reference",)):
-            process = subprocess.Popen([LUMULUS, "slab", *map(str, self.arguments(photons=2**40)), *more],
-                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            time.sleep(1.0)
-            process.send_signal(signal.SIGINT)
-            out, error = process.communicate(timeout=60)
+            for pause in (0.5, 2.0, 8.0, 30.0):  # a busy machine may not have started the program yet
+                process = subprocess.Popen([LUMULUS, "slab", *map(str, self.arguments(photons=2**40)), *more],
+                                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                time.sleep(pause)
+                process.send_signal(signal.SIGINT)
+                out, error = process.communicate(timeout=60)
+                if process.returncode != -signal.SIGINT:
+                    break
             self.assertEqual((process.returncode, out), (1, ""))
             self.assertEqual(error, "lumulus: error: interrupted: nothing was written\n")
 

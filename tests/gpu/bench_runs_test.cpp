@@ -15,8 +15,8 @@ namespace lumulus::bench {
 namespace {
 
 LayeredImage traced(const scene::Scene& scene, std::uint64_t seed, std::uint64_t samples) {
-    const CloudVolume cloud = loadCloudVolume(scene.clouds[0], scene.preparation.memoryBudget);
-    reference::Renderer tracer(scene, {cloud.volume}, reference::Majorant::local, seed);
+    const CloudVolumes clouds = loadClouds(scene);
+    reference::Renderer tracer(scene, clouds.placed(), reference::Majorant::local, seed);
     while (tracer.film().samples < samples) tracer.pass([](std::uint64_t) { return true; });
     return tracer.picture();
 }

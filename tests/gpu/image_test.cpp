@@ -94,6 +94,17 @@ TEST_F(ImageTest, LevelsAndLayersAreTransferredApart) {
     EXPECT_THROW(upload(context, array.level(2), values), std::logic_error);
 }
 
+TEST_F(ImageTest, LayersLargerThanTheStagingBufferAreTransferredByRows) {
+    const Image picture(context, "picture", glm::ivec2(1024, 4100), VK_FORMAT_R32_UINT, {.layers = 2});
+    ASSERT_GT(picture.bytes() / 2, stagingBytes);
+    std::vector<std::uint32_t> texels(picture.bytes() / sizeof(std::uint32_t));
+    std::iota(texels.begin(), texels.end(), 1U);
+    upload(context, picture, texels);
+    EXPECT_EQ(download<std::uint32_t>(context, picture), texels);
+    const std::vector<std::uint32_t> second(texels.begin() + 1024 * 4100, texels.end());
+    EXPECT_EQ(download<std::uint32_t>(context, picture.level(0, 1)), second);
+}
+
 TEST_F(ImageTest, LevelsOfAVolumeAreTransferred) {
     Image volume(context, "volume", glm::ivec3(4, 3, 5), VK_FORMAT_R16_UINT, {.levels = 3});
     EXPECT_EQ(volume.level(1).extent(), glm::ivec3(2, 1, 2));

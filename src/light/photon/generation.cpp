@@ -93,8 +93,8 @@ GenerationTracer::GenerationTracer(gpu::Context& context, const cloud::Asset& cl
     if (!medium.tables.inverseCdf.empty()) gpu::upload(context, inverseCdf_, medium.tables.inverseCdf);
 }
 
-shared::TraceParams GenerationTracer::traceParams(const Emission& emission, const scene::Sun& sun, int unitExponent,
-                                                  std::uint32_t number) const {
+shared::TraceParams GenerationTracer::traceParams(const Emission& emission, const scene::Sun& sun, double extinction,
+                                                  int unitExponent, std::uint32_t number) const {
     shared::TraceParams p{};
     const double f = static_cast<double>(medium_.tables.forwardFraction);
     const double least = std::min(medium_.albedo.x, std::min(medium_.albedo.y, medium_.albedo.z));
@@ -104,7 +104,7 @@ shared::TraceParams GenerationTracer::traceParams(const Emission& emission, cons
     glm::dmat3 cellEdges = cloud_.voxelToMetres;
     for (int axis = 0; axis < 3; ++axis) cellEdges[axis] *= static_cast<double>(p.cellSize[axis]);
     p.worldToCells = glm::mat3(glm::inverse(cellEdges));
-    p.extinction = static_cast<float>(medium_.extinction * (1.0 - f * least));
+    p.extinction = static_cast<float>(extinction * (1.0 - f * least));
     p.scatterShare = static_cast<float>((1.0 - f) / (1.0 - f * least));
     p.albedo = glm::vec3(medium_.albedo);
     p.straightWeight = least < 1.0 ? glm::vec3((medium_.albedo - least) / (1.0 - least)) : glm::vec3(0.0F);
@@ -185,10 +185,10 @@ void GenerationTracer::round(const gpu::Buffer& coefficients) {
     commands_.wait();
 }
 
-void GenerationTracer::trace(const Emission& emission, const scene::Sun& sun, int unitExponent, std::uint32_t number,
-                             const gpu::Buffer& coefficients, Counters& counters, std::uint64_t& unsettledRecords,
-                             PassLog& log) {
-    params_.mapped<shared::TraceParams>()[0] = traceParams(emission, sun, unitExponent, number);
+void GenerationTracer::trace(const Emission& emission, const scene::Sun& sun, double extinction, int unitExponent,
+                             std::uint32_t number, const gpu::Buffer& coefficients, Counters& counters,
+                             std::uint64_t& unsettledRecords, PassLog& log) {
+    params_.mapped<shared::TraceParams>()[0] = traceParams(emission, sun, extinction, unitExponent, number);
     resetStates(states_.mapped<shared::TraceState>().subspan(0, invocations_));
     const shared::TraceCounters& c = counters_.mapped<shared::TraceCounters>()[0];
     do {

@@ -30,11 +30,13 @@ class GenerationTracer {
 
     const glm::dmat3& faceArea() const { return faceArea_; }
 
-    /// Adds the light of generation `number` to `coefficients` ([collector][RGB][bands²], then the estimates, int64),
-    /// in counts of 2^unitExponent W / COEFFICIENT_SCALE, and what happened to `counters`. `unsettledRecords` counts
-    /// the records that `coefficients` hold. Errors: Error where interrupted, or where the sums might wrap.
-    void trace(const Emission& emission, const scene::Sun& sun, int unitExponent, std::uint32_t number,
-               const gpu::Buffer& coefficients, Counters& counters, std::uint64_t& unsettledRecords, PassLog& log);
+    /// Adds the light of generation `number` under `extinction` (σt at density 1 [1/m]) to `coefficients`
+    /// ([collector][RGB][bands²], then the estimates, int64), in counts of 2^unitExponent W / COEFFICIENT_SCALE, and
+    /// what happened to `counters`. `unsettledRecords` counts the records that `coefficients` hold. Errors: Error where
+    /// interrupted, or where the sums might wrap.
+    void trace(const Emission& emission, const scene::Sun& sun, double extinction, int unitExponent,
+               std::uint32_t number, const gpu::Buffer& coefficients, Counters& counters,
+               std::uint64_t& unsettledRecords, PassLog& log);
 
   private:
     const cloud::Asset& cloud_;
@@ -51,8 +53,8 @@ class GenerationTracer {
     gpu::Buffer cursors_, chunkOffsets_, gatherArguments_, sorted_, inverseCdf_;
     gpu::Commands commands_;
 
-    shared::TraceParams traceParams(const Emission& emission, const scene::Sun& sun, int unitExponent,
-                                    std::uint32_t number) const;
+    shared::TraceParams traceParams(const Emission& emission, const scene::Sun& sun, double extinction,
+                                    int unitExponent, std::uint32_t number) const;
     void recordSort(const shared::GatherPush& push);
     void round(const gpu::Buffer& coefficients);
 };

@@ -81,7 +81,7 @@ struct PhotonMap::State {
 
     gpu::Context& context;
     const cloud::Asset& cloud;
-    Medium medium;
+    const Medium medium;
     Options options;
     std::uint32_t collectors;
     std::uint32_t coefficients;  // of all collectors
@@ -105,8 +105,7 @@ struct PhotonMap::State {
     SplitCounts splitCounts;  // of what is unsettled
     Counters counters;
     PassLog log;
-    double massExtinction;               // under which `places` holds the masses
-    std::deque<double> ringExtinctions;  // of the generations in the ring, over massExtinction
+    std::deque<double> ringExtinctions;  // of the generations in the ring, over the medium's
 
     /// From a generation's unit to the ring's.
     int shiftOf(int unitExponent) const {
@@ -140,8 +139,7 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Asset& preparedCl
       saturated(context, "saturated", sizeof(std::uint32_t), Memory::host),
       fluences(collectorImage(context, "collector fluences", collectors)),
       radiance(collectorImage(context, "collector radiance", collectors)),
-      commands(context),
-      massExtinction(medium.extinction) {
+      commands(context) {
     if (options.keepRing)
         for (int i = 0; i < options.generations; ++i)
             slots.emplace_back(context, "ring slot " + std::to_string(i), coefficients * sizeof(std::int64_t),
@@ -245,8 +243,9 @@ PhotonMap::PhotonMap(gpu::Context& context, const cloud::Asset& cloud, const Med
 PhotonMap::PhotonMap(PhotonMap&&) noexcept = default;
 PhotonMap::~PhotonMap() = default;
 
-void PhotonMap::trace(const scene::Sun& sun, const sky::Environment& environment) {
+void PhotonMap::trace(const scene::Sun& sun, const sky::Environment& environment, std::optional<double> extinctionNow) {
     State& s = *state_;
+    const double extinction = extinctionNow.value_or(s.medium.extinction);
     const Emission emission = makeEmission(sun, environment, s.tracer.faceArea());
     int unitExponent = 0;
     s.flux = luminance(emission.sunFlux + emission.skyFlux);
@@ -261,13 +260,13 @@ void PhotonMap::trace(const scene::Sun& sun, const sky::Environment& environment
         const int finer = -s.shiftOf(unitExponent);
         if (finer > 0 && finer <= sparedBits) unitExponent += finer;
         s.makeRoom(unitExponent);
-        s.tracer.trace(emission, sun, unitExponent, static_cast<std::uint32_t>(s.traced), s.target(), s.counters,
-                       s.unsettledRecords, s.log);
+        s.tracer.trace(emission, sun, extinction, unitExponent, static_cast<std::uint32_t>(s.traced), s.target(),
+                       s.counters, s.unsettledRecords, s.log);
     } else if (s.options.keepRing) {
         s.makeRoom(unitExponent);  // the oldest generation gives way to an empty one
     }
     ++s.traced;
-    s.ringExtinctions.push_back(s.medium.extinction / s.massExtinction);
+    s.ringExtinctions.push_back(extinction / s.medium.extinction);
     if (s.options.keepRing && s.traced > s.options.generations) s.ringExtinctions.pop_front();
     if (s.options.keepRing) s.settle();
 }
@@ -333,9 +332,6 @@ std::uint64_t PhotonMap::firstInRing() const {
 std::uint64_t PhotonMap::photonsInRing() const {
     return state_->options.photonsPerGeneration * static_cast<std::uint64_t>(generationsInRing());
 }
-void PhotonMap::setExtinction(double extinction) {
-    state_->medium.extinction = extinction;
-}
 const Counters& PhotonMap::counters() const {
     return state_->counters;
 }
@@ -364,7 +360,7 @@ std::vector<std::int64_t> PhotonMap::downloadSlot(int slot) const {
 
 double PhotonMap::massScale() const {
     const State& s = *state_;
-    return s.massExtinction * (1.0 - static_cast<double>(s.medium.tables.forwardFraction)) * s.cloud.voxelVolume;
+    return s.medium.extinction * (1.0 - static_cast<double>(s.medium.tables.forwardFraction)) * s.cloud.voxelVolume;
 }
 
 std::vector<double> PhotonMap::masses() const {

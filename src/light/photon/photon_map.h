@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,14 +62,16 @@ struct Light {
 /// then the estimates (shared/collision_estimator.h), int64, and their exact sum.
 class PhotonMap {
   public:
-    /// `cloud` must outlive the map. Errors: InputError where the coefficients do not fit into the budget, or those of
-    /// one generation into a buffer of the device.
+    /// `cloud` must outlive the map. Collectors' masses are those of `medium.extinction`. Errors: InputError where the
+    /// coefficients do not fit into the budget, or those of one generation into a buffer of the device.
     PhotonMap(gpu::Context& context, const cloud::Asset& cloud, const Medium& medium, const Options& options);
     PhotonMap(PhotonMap&&) noexcept;
     ~PhotonMap();
 
     /// Traces one generation into the oldest slot. Power of the lights: W·m⁻² (sun), W·m⁻²·sr⁻¹ (environment).
-    void trace(const scene::Sun& sun, const sky::Environment& environment);
+    /// `extinction` is σt at density 1 [1/m], by default that of the medium that the map was made with; another one
+    /// needs keepRing. Radiance is the mean over the ring, each generation weighted by its extinction.
+    void trace(const scene::Sun& sun, const sky::Environment& environment, std::optional<double> extinction = {});
 
     /// Adds what has been traced to the sum, unless the sum would be a copy of the one buffer that holds it all.
     void settle();
@@ -94,9 +97,6 @@ class PhotonMap {
     /// Number of the oldest generation in the ring; where nothing was traced, of the next.
     std::uint64_t firstInRing() const;
     std::uint64_t photonsInRing() const;
-    /// σt at density 1 [1/m] for the generations from now on. Radiance is then the mean over the ring, each generation
-    /// weighted by its extinction. Needs keepRing.
-    void setExtinction(double extinction);
     const Counters& counters() const;
     /// Milliseconds of each pass, summed, in the order of the passes.
     std::vector<gpu::PassTime> times() const;

@@ -1,5 +1,5 @@
 """Stiff and extreme cases, with what is expected and why. Runs them through the lumulus executable and writes the report
-docs/stability.md; the exit code is 1 where a row fails without a known reason.
+docs/experiments/stiff-cases.md; the exit code is 1 where a row fails without a known reason.
 
     scripts/study/run stability --limit 8 --spp 48
 """
@@ -56,7 +56,7 @@ def add_options(parser):
     add_program_option(parser)
     parser.add_argument("--fixtures", type=pathlib.Path, help="the executable make_vdb_fixtures "
                         "(default: in tests/ beside lumulus)")
-    parser.add_argument("--output", default=ROOT / "docs/stability.md", type=pathlib.Path)
+    parser.add_argument("--output", default=ROOT / "docs/experiments/stiff-cases.md", type=pathlib.Path)
     parser.add_argument("--only", default="", metavar="TEXT", help="run only cases whose name or group contains this")
     parser.add_argument("--limit", default=20.0, type=float, help="seconds that one run may take")
     parser.add_argument("--spp", default=128, type=int, help="samples per pixel of references")
