@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 
 #include "gpu/allocator.h"
@@ -23,6 +24,13 @@ enum class Sampler {
 /// Bytes of pictures, volumes and lists that went from the host to the device and back.
 struct Transfers {
     std::uint64_t uploaded = 0, downloaded = 0;
+};
+
+/// A compute pipeline and its layouts: programs of one code and one set of constants share it.
+struct Pipeline {
+    Owned<VkDescriptorSetLayout> setLayout;
+    Owned<VkPipelineLayout> layout;
+    Owned<VkPipeline> handle;
 };
 
 /// A command buffer with its pool and the fence of its submission.
@@ -89,6 +97,9 @@ class Context {
         wait(immediate_);
     }
 
+    /// The pipeline of this key while a program holds it, else null: programs share what is compiled.
+    std::weak_ptr<Pipeline>& pipeline(const std::string& key) { return pipelines_[key]; }
+
     /// The bookkeeping behind transfers().
     void addUploaded(std::uint64_t bytes) { transfers_.uploaded += bytes; }
     void addDownloaded(std::uint64_t bytes) { transfers_.downloaded += bytes; }
@@ -116,6 +127,7 @@ class Context {
     VkQueue queue_ = VK_NULL_HANDLE;
     CommandBuffer immediate_;
     std::array<Owned<VkSampler>, 4> samplers_;  ///< by Sampler
+    std::map<std::string, std::weak_ptr<Pipeline>> pipelines_;
 };
 
 }  // namespace lumulus::gpu

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <stdexcept>
+#include <string_view>
 
 namespace lumulus::gpu {
 
@@ -21,8 +23,15 @@ ProgramBase::ProgramBase(Context& context, std::string name, std::span<const std
     for (const SpecConstant& constant : constants)
         if (std::ranges::count(reflection.constantIds, constant.id) == 0)
             throw std::logic_error(fmt::format("{}: the shader has no constant_id {}", name_, constant.id));
+    const std::string_view code(reinterpret_cast<const char*>(spirv.data()), spirv.size_bytes());
+    std::string key = fmt::format("{} {} {}", name_, code.size(), std::hash<std::string_view>()(code));
+    for (const SpecConstant& constant : constants) key += fmt::format(" {}={}", constant.id, constant.value);
+    std::weak_ptr<Pipeline>& shared = context.pipeline(key);
+    if ((pipeline_ = shared.lock())) return;
+    pipeline_ = std::make_shared<Pipeline>();
     createLayout(context);
     createPipeline(context, spirv, constants);
+    shared = pipeline_;
 }
 
 void ProgramBase::createLayout(Context& context) {
@@ -33,14 +42,14 @@ void ProgramBase::createLayout(Context& context) {
     const VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, nullptr,
                                                   VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
                                                   static_cast<std::uint32_t>(bindings.size()), bindings.data()};
-    setLayout_ = context.create(api.vkCreateDescriptorSetLayout, api.vkDestroyDescriptorSetLayout, setInfo,
-                                VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, name_);
-    VkDescriptorSetLayout setLayout = setLayout_.get();
+    pipeline_->setLayout = context.create(api.vkCreateDescriptorSetLayout, api.vkDestroyDescriptorSetLayout, setInfo,
+                                          VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, name_);
+    VkDescriptorSetLayout setLayout = pipeline_->setLayout.get();
     const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, pushBytes_};
     const VkPipelineLayoutCreateInfo info{
         VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, nullptr, 0, 1, &setLayout, pushBytes_ > 0 ? 1U : 0U, &range};
-    layout_ = context.create(api.vkCreatePipelineLayout, api.vkDestroyPipelineLayout, info,
-                             VK_OBJECT_TYPE_PIPELINE_LAYOUT, name_);
+    pipeline_->layout = context.create(api.vkCreatePipelineLayout, api.vkDestroyPipelineLayout, info,
+                                       VK_OBJECT_TYPE_PIPELINE_LAYOUT, name_);
 }
 
 void ProgramBase::createPipeline(Context& context, std::span<const std::uint32_t> spirv,
@@ -58,7 +67,7 @@ void ProgramBase::createPipeline(Context& context, std::span<const std::uint32_t
     const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()), entries.data(),
                                               constants.size() * sizeof(SpecConstant), constants.data()};
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    info.layout = layout_.get();
+    info.layout = pipeline_->layout.get();
     info.stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                   .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                   .module = module.get(),
@@ -67,7 +76,7 @@ void ProgramBase::createPipeline(Context& context, std::span<const std::uint32_t
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(api.vkCreateComputePipelines(context.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
           "vkCreateComputePipelines");
-    pipeline_ = Owned<VkPipeline>(pipeline, {context.handle(), api.vkDestroyPipeline});
+    pipeline_->handle = Owned<VkPipeline>(pipeline, {context.handle(), api.vkDestroyPipeline});
     setObjectName(context.handle(), VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), name_);
 }
 

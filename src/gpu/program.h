@@ -21,13 +21,14 @@ struct SpecConstant {
 struct NoPush {};
 
 /// A compute pipeline whose layout comes from its SPIR-V: push descriptors in set 0 and one push-constant block.
+/// Programs of the same code and constants share what is compiled.
 class ProgramBase {
   public:
     const std::string& name() const { return name_; }
     const std::vector<BindingInfo>& bindings() const { return bindings_; }
     std::uint32_t pushBytes() const { return pushBytes_; }
-    VkPipeline pipeline() const { return pipeline_.get(); }
-    VkPipelineLayout layout() const { return layout_.get(); }
+    VkPipeline pipeline() const { return pipeline_->handle.get(); }
+    VkPipelineLayout layout() const { return pipeline_->layout.get(); }
 
   protected:
     ProgramBase(Context& context, std::string name, std::span<const std::uint32_t> spirv,
@@ -41,9 +42,7 @@ class ProgramBase {
     std::string name_;
     std::vector<BindingInfo> bindings_;
     std::uint32_t pushBytes_ = 0;
-    Owned<VkDescriptorSetLayout> setLayout_;
-    Owned<VkPipelineLayout> layout_;
-    Owned<VkPipeline> pipeline_;
+    std::shared_ptr<Pipeline> pipeline_;
 };
 
 /// A compute program with push constants of type Push (scalar layout, the same struct as in the shader).

@@ -18,14 +18,10 @@ std::uint64_t sliceBytes(const ImageLevel& image) {
     return image.bytes() / static_cast<std::uint64_t>(image.slices());
 }
 
-std::uint64_t rowBytes(const ImageLevel& image) {
-    return sliceBytes(image) / static_cast<std::uint64_t>(image.extent().y);
-}
-
 /// The part of an image that so many bytes at an offset fill: whole slices, or rows of one slice.
 VkBufferImageCopy regionOf(const ImageLevel& image, std::uint64_t offset, std::uint64_t bytes) {
-    const std::uint64_t slice = sliceBytes(image), row = rowBytes(image);
     const glm::uvec3 extent(image.extent());
+    const std::uint64_t slice = sliceBytes(image), row = slice / extent.y;
     const auto first = static_cast<std::uint32_t>(offset / slice);
     const auto count = static_cast<std::uint32_t>(std::max(bytes / slice, std::uint64_t{1}));
     const auto firstRow = static_cast<int>(offset % slice / row);
@@ -34,7 +30,8 @@ VkBufferImageCopy regionOf(const ImageLevel& image, std::uint64_t offset, std::u
     const auto layer = static_cast<std::uint32_t>(image.layer.value_or(0));
     const VkImageSubresourceLayers part{VK_IMAGE_ASPECT_COLOR_BIT, static_cast<std::uint32_t>(image.level),
                                         volume ? 0 : layer + first, volume ? 1 : count};
-    return {0, 0, 0, part, {0, firstRow, volume ? static_cast<int>(first) : 0}, {extent.x, rows, volume ? count : 1}};
+    const VkOffset3D corner{0, firstRow, volume ? static_cast<int>(first) : 0};
+    return {0, 0, 0, part, corner, {extent.x, rows, volume ? count : 1}};
 }
 
 /// `record` is called for pieces of at most `most` bytes: it records the copy of so many bytes at an offset, from the
@@ -50,10 +47,7 @@ void copyPieces(Context& context, std::span<Byte> bytes, std::uint64_t most, con
             [&](VkCommandBuffer commands) { record(commands, staging.handle(), offset, piece.size()); });
         if constexpr (!std::is_const_v<Byte>) std::memcpy(piece.data(), mapped, piece.size());
     }
-    if constexpr (std::is_const_v<Byte>)
-        context.addUploaded(bytes.size());
-    else
-        context.addDownloaded(bytes.size());
+    std::is_const_v<Byte> ? context.addUploaded(bytes.size()) : context.addDownloaded(bytes.size());
 }
 
 template <class Byte>
@@ -71,18 +65,18 @@ template <class Byte>
 void copy(Context& context, const ImageLevel& level, std::span<Byte> bytes) {
     VkImage image = level.image->handle();
     requireSize(bytes.size() == level.bytes(), *level.image, level.bytes(), bytes.size());
-    const std::uint64_t slice = sliceBytes(level), unit = slice <= stagingBytes ? slice : rowBytes(level);
+    const auto rows = static_cast<std::uint64_t>(level.extent().y);
+    const std::uint64_t slice = sliceBytes(level), unit = slice <= stagingBytes ? slice : slice / rows;
     const std::uint64_t most = std::max(stagingBytes / unit, std::uint64_t{1}) * unit;
     const std::uint64_t part = slice <= stagingBytes ? bytes.size() : slice;  // rows of one slice go together only
     for (std::uint64_t start = 0; start < bytes.size(); start += part)
-        copyPieces(
-            context, bytes.subspan(start, part), most, [&](auto commands, auto staging, auto offset, auto count) {
-                const VkBufferImageCopy region = regionOf(level, start + offset, count);
-                if constexpr (std::is_const_v<Byte>)
-                    context.api().vkCmdCopyBufferToImage(commands, staging, image, VK_IMAGE_LAYOUT_GENERAL, 1, &region);
-                else
-                    context.api().vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_GENERAL, staging, 1, &region);
-            });
+        copyPieces(context, bytes.subspan(start, part), most, [&](auto list, auto staging, auto offset, auto count) {
+            const VkBufferImageCopy region = regionOf(level, start + offset, count);
+            if constexpr (std::is_const_v<Byte>)
+                context.api().vkCmdCopyBufferToImage(list, staging, image, VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+            else
+                context.api().vkCmdCopyImageToBuffer(list, image, VK_IMAGE_LAYOUT_GENERAL, staging, 1, &region);
+        });
 }
 
 template <class Byte>

@@ -54,19 +54,35 @@ ViewState& ViewState::operator=(ViewState&&) noexcept = default;
 ViewState::~ViewState() = default;
 
 Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
-    : state_(std::make_unique<State>(drawable(scene), options)) {
+    : state_(std::make_unique<State>(
+          drawable(scene), options,
+          std::make_shared<gpu::Context>(gpu::ContextOptions{options.device, options.validation}))) {
     State& s = *state_;
-    s.keepRing = options.keepRing;
-    s.statistics.device = s.context.device().name;
-    if (!scene.fog.media.empty()) s.fog.emplace(s.context, scene.fog, s.check);
     WorldReport report;
     s.world.emplace(makeWorld(s.context, scene, {options.keepRing, options.progressive, s.report, s.check}, report));
     s.statistics.warnings = std::move(report.warnings);
     s.statistics.loadSeconds = report.loadSeconds;
     const Stopwatch preparing;
-    for (const auto& asset : s.world->assets) s.statistics.collectors += asset->collectors.size();
-    if (!s.world->visible().empty()) s.painter.emplace(s.context, *s.world, scene.draw);
+    s.makePainters(scene);
     s.statistics.prepareSeconds = report.prepareSeconds + preparing.seconds();
+}
+
+Renderer::Renderer(const scene::Scene& scene, const Renderer& other, const RendererOptions& options)
+    : state_(std::make_unique<State>(drawable(scene), options, other.state_->ownContext)) {
+    State& s = *state_;
+    const Stopwatch preparing;
+    s.world.emplace(makeWorldBeside(s.context, scene, *other.state_->world,
+                                    {options.keepRing, options.progressive, s.report, s.check}));
+    s.statistics.warnings = other.state_->statistics.warnings;
+    s.makePainters(scene);
+    s.statistics.prepareSeconds = preparing.seconds();
+}
+
+void Renderer::State::makePainters(const scene::Scene& scene) {
+    statistics.device = context.device().name;
+    if (!scene.fog.media.empty()) fog.emplace(context, scene.fog, check);
+    for (const auto& asset : world->assets) statistics.collectors += asset->collectors.size();
+    if (!world->visible().empty()) painter.emplace(context, *world, scene.draw);
 }
 
 Renderer::~Renderer() = default;

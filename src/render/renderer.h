@@ -87,6 +87,10 @@ class ViewState {
 class Renderer {
   public:
     Renderer(const scene::Scene& scene, const RendererOptions& options);
+    /// A renderer of the same scene with light of its own: as the scene has it, and no photons yet. It shares the
+    /// device (whatever `options` say of one), the densities, the collectors and the compiled programs with `other`, so
+    /// that one thread at a time may use the two.
+    Renderer(const scene::Scene& scene, const Renderer& other, const RendererOptions& options);
     ~Renderer();
 
     /// Generations that the scene asks for (0 where no photon is needed).

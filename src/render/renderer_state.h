@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "fog/screen/fog.h"
 #include "render/gpu_work.h"
@@ -12,29 +14,34 @@ namespace lumulus {
 
 /// What a renderer owns: the device, the world, and what draws it. What a scene does not need does not exist.
 struct Renderer::State {
-    State(const scene::Scene& scene, const RendererOptions& options)
+    State(const scene::Scene& scene, const RendererOptions& options, std::shared_ptr<gpu::Context> device)
         : camera(scene.camera),
           image(scene.image),
           photonMap(scene.photonMap),
           report(options.report),
           check(options.check),
-          context({options.device, options.validation}) {}
+          ownContext(std::move(device)),
+          context(*ownContext),
+          keepRing(options.keepRing) {}
 
     scene::Camera camera;  ///< of the scene's view
     scene::Image image;
     scene::PhotonMap photonMap;
     Report report;
     Check check;
-    gpu::Context context;
+    std::shared_ptr<gpu::Context> ownContext;  ///< shared by renderers that differ in light
+    gpu::Context& context;
     GpuWork work{context};
     std::optional<World> world;
     std::optional<Painter> painter;
     std::optional<fog::Fog> fog;
     int sunAllowed = 1;   ///< reduction of shadow volumes
     int sinceChange = 0;  ///< generations under the light of now
-    bool keepRing = false;
+    bool keepRing;
     Statistics statistics;
 
+    /// Makes what draws the world.
+    void makePainters(const scene::Scene& scene);
     /// Sets what the view state keeps of a view.
     void show(ViewState::State& state, const View& view) const;
     int raysAcross(const Camera& camera, int most) const;

@@ -58,6 +58,23 @@ class Maker {
         return std::move(world_);
     }
 
+    World makeBeside(const World& other) {
+        world_.assets = other.assets;
+        world_.instances = other.instances;
+        world_.bounds = other.bounds;
+        world_.light.resize(world_.instances.size());
+        for (std::size_t i = 0; i < world_.instances.size(); ++i) {
+            cloud::Instance& instance = world_.instances[i];
+            const double wanted = scene_.clouds[i].extinction;
+            if (instance.sceneExtinction != wanted) instance.medium.extinction *= wanted / instance.sceneExtinction;
+            instance.sceneExtinction = wanted;
+            instance.offset = glm::dvec3(0.0);
+            world_.light[i].sun = world_.lights.sunAt(instance.bounds.centre, world_.fog);
+        }
+        for (const std::size_t i : world_.visible()) lightUp(i);
+        return std::move(world_);
+    }
+
   private:
     /// The volumes of all clouds; places the instances.
     CloudVolumes load();
@@ -123,7 +140,7 @@ void Maker::prepare(std::size_t number, const vdb::PlacedVolume& placed) {
         medium.extinction * static_cast<double>(medium.tables.scatterFraction) * (1.0 - forward);
     instance.asset = findAsset(number, &volume, options.reducedExtinction);
     if (instance.asset == nullptr) {
-        world_.assets.push_back(std::make_unique<cloud::Asset>(cloud::prepare(context_, placed, options)));
+        world_.assets.push_back(std::make_shared<const cloud::Asset>(cloud::prepare(context_, placed, options)));
         instance.asset = world_.assets.back().get();
         if (instance.asset->tree.limited)
             report_.warnings.push_back("samples of the gradient asked for more than " +
@@ -192,6 +209,12 @@ bool World::hasShadows() const {
 
 World makeWorld(gpu::Context& context, const scene::Scene& scene, const WorldOptions& options, WorldReport& report) {
     return Maker(context, scene, options, report).make();
+}
+
+World makeWorldBeside(gpu::Context& context, const scene::Scene& scene, const World& other,
+                      const WorldOptions& options) {
+    WorldReport report;
+    return Maker(context, scene, options, report).makeBeside(other);
 }
 
 }  // namespace lumulus

@@ -17,11 +17,12 @@ namespace lumulus {
 struct World {
     scene::Fog fog;
     light::LightSet lights;
-    std::vector<std::unique_ptr<cloud::Asset>> assets;  ///< each shared by the instances that show it
-    std::vector<cloud::Instance> instances;             ///< one for each cloud of the scene, in its order
-    std::vector<light::InstanceLight> light;            ///< of each instance
-    Bounds bounds;                                      ///< of all instances, without their offsets
-    glm::dvec3 wind{0.0};                               ///< velocity with which all instances drift [m/s]
+    /// Each shared by the instances that show it, and by worlds that differ in light.
+    std::vector<std::shared_ptr<const cloud::Asset>> assets;
+    std::vector<cloud::Instance> instances;   ///< one for each cloud of the scene, in its order
+    std::vector<light::InstanceLight> light;  ///< of each instance
+    Bounds bounds;                            ///< of all instances, without their offsets
+    glm::dvec3 wind{0.0};                     ///< velocity with which all instances drift [m/s]
 
     /// Numbers of the instances in which there is something.
     std::vector<std::size_t> visible() const;
@@ -45,5 +46,10 @@ struct WorldOptions {
 /// Loads and prepares the clouds of a scene. Errors: InputError for what is wrong with the scene, Error where
 /// interrupted or out of memory.
 World makeWorld(gpu::Context& context, const scene::Scene& scene, const WorldOptions& options, WorldReport& report);
+
+/// A world of the same scene on the same device that shares the assets of `other`, with light of its own: as the scene
+/// has it, and no photons yet. Errors: as above.
+World makeWorldBeside(gpu::Context& context, const scene::Scene& scene, const World& other,
+                      const WorldOptions& options);
 
 }  // namespace lumulus
