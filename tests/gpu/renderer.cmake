@@ -1,4 +1,4 @@
-lumulus_test(renderer_test
+lumulus_test(renderer_test SANITIZED
   SOURCES ${CMAKE_CURRENT_LIST_DIR}/renderer_passes_test.cpp ${CMAKE_CURRENT_LIST_DIR}/renderer_clouds_test.cpp ${CMAKE_CURRENT_LIST_DIR}/renderer_picture_test.cpp
           ${CMAKE_CURRENT_LIST_DIR}/renderer_sparse_sampling_test.cpp ${CMAKE_CURRENT_LIST_DIR}/renderer_fog_test.cpp ${CMAKE_CURRENT_LIST_DIR}/renderer_views_test.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/support/vulkan_main.cpp
