@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
     # tools
-    g++ cmake ninja-build ccache glslang-tools pkg-config python3 python3-numpy python3-openimageio python3-pil
+    g++ cmake ninja-build ccache clang-format glslang-tools pkg-config python3 python3-numpy python3-openimageio python3-pil
     # clouds and pictures
     libopenvdb-dev libboost-iostreams-dev libtbb-dev libopenexr-dev libpng-dev libjpeg62-turbo-dev
     # plots

@@ -19,6 +19,9 @@ void guardChunks() {}
 
 namespace {
 
+/// Bytes that a packer may add: blosc's header, the frame of an empty zip.
+constexpr std::uint64_t mostOverhead = 64;
+
 [[noreturn]] void refuseChunk() {
     OPENVDB_THROW(openvdb::RuntimeError, "a chunk of values does not have the length of its node");
 }
@@ -32,6 +35,8 @@ void readChunk(std::istream& in, char* to, std::size_t bytes, const Unpack& unpa
     const bool packed = stored > 0;
     const std::uint64_t length = packed ? static_cast<std::uint64_t>(stored) : -static_cast<std::uint64_t>(stored);
     if (!packed && length != bytes) refuseChunk();
+    // what is longer when packed is stored as it is; so no memory is taken for a length that is only claimed
+    if (packed && length > bytes + mostOverhead) refuseChunk();
     if (to == nullptr) {
         in.seekg(static_cast<std::streamoff>(length), std::ios::cur);
     } else if (!packed) {

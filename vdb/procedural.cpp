@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 
 #include "base/error.h"
 #include "vdb/procedural_kinds.h"
@@ -14,7 +15,7 @@ std::vector<std::string> kinds() {
 }
 
 Volume makeBox(const std::string& name, const glm::dvec3& extent, int resolution, double flattening) {
-    const double longest = std::max({extent.x, extent.y, extent.z});
+    const double longest = glm::compMax(extent);
     const double width = longest / (resolution - 2);
     const glm::dvec3 voxel(width, width / flattening, width);
     constexpr double rounding = 1e-9;  // an extent that is a whole number of voxels gets no extra one

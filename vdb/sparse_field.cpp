@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 #include <tuple>
 
 #include "base/interrupt.h"
@@ -242,9 +243,9 @@ glm::ivec3 coarseSize(const glm::i64vec3& extent, std::int64_t n) {
 std::int64_t chooseCoarsening(const glm::i64vec3& extent, double budget, int maxExtent) {
     const auto fits = [&](std::int64_t n) {
         const glm::dvec3 size = glm::dvec3((extent + (n - std::int64_t{1})) / n) + 2.0;
-        return std::max({size.x, size.y, size.z}) <= maxExtent && 2.0 * size.x * size.y * size.z <= budget;
+        return glm::compMax(size) <= maxExtent && 2.0 * size.x * size.y * size.z <= budget;
     };
-    std::int64_t high = std::max({extent.x, extent.y, extent.z});
+    std::int64_t high = glm::compMax(extent);
     if (!fits(high)) return 0;
     std::int64_t low = 0;  // does not fit, or does not coarsen
     while (high - low > 1) {

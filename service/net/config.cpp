@@ -2,13 +2,13 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <cstdlib>
 #include <fstream>
 #include <map>
 
 #include "base/error.h"
+#include "scene/toml.h"
 #include "service/net/config_reader.h"
 
 namespace lumulus::service {

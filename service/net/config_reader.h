@@ -1,12 +1,12 @@
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <concepts>
 #include <filesystem>
 #include <optional>
 #include <set>
 #include <string>
+
+#include "scene/toml.h"
 
 namespace lumulus::service {
 

@@ -16,13 +16,12 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/exr_claims.h"
 
 namespace lumulus {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t maximumValues = std::size_t{1} << 28;
 
 /// Attributes whose types the format fixes for files of several parts: strict readers refuse a string there.
 constexpr std::array<std::string_view, 4> multipartAttributes{"name", "type", "version", "chunkCount"};
@@ -55,16 +54,13 @@ LayeredImage readOpen(Imf::InputFile& file, const fs::path& path) {
     LayeredImage image;
     image.width = window.max.x - window.min.x + 1;
     image.height = window.max.y - window.min.y + 1;
-    std::size_t count = 0;
+    if (header.channels().begin() == header.channels().end())
+        throw InputError("the picture has no channels", path.string(), "give one with pixels");
     for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
-        ++count;
         if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
             throw InputError(std::string("the channel ") + it.name() + " is subsampled", path.string(),
                              "convert the picture to full-resolution RGB first");
         }
-    }
-    if (count == 0 || image.pixels() > maximumValues / count) {
-        throw InputError("the picture is empty or too large to read", path.string(), "crop it or drop some layers");
     }
     Imf::FrameBuffer frame;
     for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
@@ -111,6 +107,7 @@ LayeredImage readExr(const fs::path& path) {
         throw InputError(fs::exists(path, ec) ? "not a file" : "no such file", path.string(), "give an EXR picture");
     }
     try {
+        checkExrClaims(path);
         Imf::StdIFStream stream(path.c_str());
         Imf::InputFile file(stream);
         if (!file.isComplete()) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <glm/gtx/component_wise.hpp>
 
 #include "base/error.h"
 
@@ -71,7 +72,7 @@ Buffer::Buffer(Context& context, std::string name, std::uint64_t count, VkFormat
 }
 
 int mipLevels(glm::ivec3 extent) {
-    return std::bit_width(static_cast<unsigned>(std::max({extent.x, extent.y, extent.z})));
+    return std::bit_width(static_cast<unsigned>(glm::compMax(extent)));
 }
 
 glm::ivec3 ImageLevel::extent() const {

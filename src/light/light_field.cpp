@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
@@ -26,10 +27,6 @@ constexpr std::uint64_t maxCells = 1ULL << 22U;
 /// With a ring round them they fit into 2048 texels, the least that desktop devices have along a volume.
 constexpr int maxAlong = 2046;
 
-int largestOf(const glm::ivec3& v) {
-    return std::max(v.x, std::max(v.y, v.z));
-}
-
 /// Voxels with density.
 double occupiedVoxels(const cloud::Asset& cloud) {
     double voxels = 0.0;
@@ -40,13 +37,13 @@ double occupiedVoxels(const cloud::Asset& cloud) {
 }  // namespace
 
 cloud::CellGrid lightGrid(const cloud::Asset& cloud, std::uint64_t photons) {
-    const int longest = largestOf(cloud.size);
+    const int longest = glm::compMax(cloud.size);
     const double wanted = std::min(std::cbrt(photonsInCell * occupiedVoxels(cloud) / static_cast<double>(photons)),
                                    longest / fewestAlong);
     cloud::CellGrid grid;
     grid.edge = 1 << std::max(0L, std::lround(std::log2(wanted)));
     grid.cells = (cloud.size + grid.edge - 1) / grid.edge;
-    while (grid.count() > maxCells || largestOf(grid.cells) > maxAlong) {
+    while (grid.count() > maxCells || glm::compMax(grid.cells) > maxAlong) {
         grid.edge *= 2;
         grid.cells = (cloud.size + grid.edge - 1) / grid.edge;
     }

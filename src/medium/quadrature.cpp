@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -15,25 +16,15 @@ using std::numbers::pi;
 constexpr int lanes = GaussRule::points;
 
 GaussRule makeGaussRule() {
+    using Known = boost::math::quadrature::gauss<double, lanes>;
     GaussRule rule{};
-    for (int i = 0; i < lanes; ++i) {
-        // Newton from the asymptotic roots (Abramowitz and Stegun 22.16.6)
-        double x = std::cos(pi * (i + 0.75) / (lanes + 0.5));
-        double derivative = 0.0;
-        for (int iteration = 0; iteration < 8; ++iteration) {
-            double before = 1.0;
-            double value = x;
-            for (int l = 1; l < lanes; ++l) {
-                const double next = ((2 * l + 1) * x * value - l * before) / (l + 1);
-                before = value;
-                value = next;
-            }
-            derivative = lanes * (x * value - before) / (x * x - 1.0);
-            x -= value / derivative;
-        }
-        const auto slot = static_cast<std::size_t>(i);
-        rule.nodes[slot] = x;
-        rule.weights[slot] = 2.0 / ((1.0 - x * x) * derivative * derivative);
+    constexpr std::size_t half = lanes / 2;
+    for (std::size_t i = 0; i < half; ++i) {
+        // the library lists the positive nodes, from the middle on
+        const std::size_t before = half - 1 - i, behind = half + i;
+        rule.nodes[before] = Known::abscissa()[i];
+        rule.nodes[behind] = -Known::abscissa()[i];
+        rule.weights[before] = rule.weights[behind] = Known::weights()[i];
     }
     return rule;
 }

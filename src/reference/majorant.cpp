@@ -1,5 +1,7 @@
 #include "reference/majorant.h"
 
+#include <glm/gtx/component_wise.hpp>
+
 namespace lumulus::reference {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr double margin = 1.0 + 1e-6;
 
 MajorantGrid::MajorantGrid(const Medium& medium, Majorant kind) {
     const glm::ivec3 size = medium.size();
-    const int edge = kind == Majorant::local ? localEdge : std::max({size.x, size.y, size.z});
+    const int edge = kind == Majorant::local ? localEdge : glm::compMax(size);
     edge_ = edge;
     inverseEdge_ = 1.0 / edge;
     cells_ = (size + edge - 1) / edge;

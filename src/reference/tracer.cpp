@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtx/component_wise.hpp>
 #include <limits>
 
 namespace lumulus::reference {
@@ -18,10 +19,6 @@ constexpr int fogCollisionLimit = 100'000;
 /// Product of throughput, phase function and transmittance [1/sr] below which a shadow ray plays Russian roulette: few
 /// rays carry most of the light of a forward lobe. Values between 0.02 and 0.1 are best in the Disney cloud.
 constexpr double shadowThreshold = 0.05;
-
-double largest(const glm::dvec3& v) {
-    return std::max({v.x, v.y, v.z});
-}
 
 /// Russian roulette with this chance of going on; false where the path ends.
 bool survives(glm::dvec3& throughput, double chance, Random& random) {
@@ -96,7 +93,7 @@ double PathTracer::scatter(const Vertex& vertex, glm::dvec3& throughput) const {
     const bool atSurface = vertex.place == Place::surface;
     const glm::dvec3& albedo = atSurface ? surfaces_[vertex.index].albedo : clouds_.albedo(vertex.index);
     throughput *= albedo;
-    return largest(albedo);
+    return glm::compMax(albedo);
 }
 
 /// Of the cloud or the fog that the path has met.
@@ -131,7 +128,7 @@ bool PathTracer::head(Path& path, const glm::dvec3& direction, Random& random) c
     Vertex& vertex = path.vertex;
     if (aureole_) {
         path.throughput *= response(vertex, direction) / density(vertex, direction);
-        if (!survives(path.throughput, largest(path.throughput) * aureole_->importance(direction), random))
+        if (!survives(path.throughput, glm::compMax(path.throughput) * aureole_->importance(direction), random))
             return false;
     }
     vertex.ray.direction = direction;
@@ -175,7 +172,7 @@ glm::dvec3 PathTracer::lampLight(const Vertex& vertex, Random& random) const {
 /// `sunTransmission` covers.
 glm::dvec3 PathTracer::sunByChance(const Vertex& vertex) const {
     const glm::dvec3 disc = environment_.discRadiance(vertex.ray.origin, vertex.ray.direction);
-    if (largest(disc) == 0.0) return disc;
+    if (glm::compMax(disc) == 0.0) return disc;
     const double expected = density(vertex, vertex.ray.direction) * glm::two_pi<double>() * environment_.sunCone();
     return disc * (expected / (1.0 + expected));
 }
@@ -216,10 +213,10 @@ bool PathTracer::step(Path& path, PathSample& sample, std::vector<Path>& branche
     if (event.place == Place::surface) sample.radiance += throughput * emissionAt(vertex, event);
     arrive(vertex, event);
     if (event.place != Place::fog) share = scatter(vertex, throughput);
-    if (!(largest(throughput) > 0.0)) return false;
+    if (!(glm::compMax(throughput) > 0.0)) return false;
     if (environment_.sunny() && isLit(vertex)) {
         sample.radiance +=
-            throughput * environment_.sunFluence() * sunTransmission(vertex, largest(throughput) / share, random);
+            throughput * environment_.sunFluence() * sunTransmission(vertex, glm::compMax(throughput) / share, random);
     }
     if (!lamps_.empty()) sample.radiance += throughput * lampLight(vertex, random);
     if (aureole_) branch(path, branches, random);

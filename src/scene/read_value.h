@@ -1,9 +1,9 @@
 #pragma once
 
-#include <toml++/toml.h>
 #include <string>
 
 #include "scene/schema.h"
+#include "scene/toml.h"
 
 namespace lumulus::scene {
 

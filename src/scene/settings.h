@@ -1,6 +1,5 @@
 #pragma once
 
-#include <toml++/toml.h>
 #include <deque>
 #include <functional>
 #include <map>
@@ -9,6 +8,7 @@
 
 #include "scene/arrays.h"
 #include "scene/schema.h"
+#include "scene/toml.h"
 
 namespace lumulus::scene {
 

@@ -1,8 +1,13 @@
 #!/usr/bin/python3
-"""Writes the fuzzer's first inputs, one valid conversation a file: make_corpus.py FOLDER"""
+"""Writes first inputs for a fuzz target, each a file: make_corpus.py chunks|exr|scene|session FOLDER
+
+scripts/fuzz.sh takes the folder. For vdb it is what build/release/tests/make_vdb_fixtures writes.
+"""
 
 import json
 import os
+import pathlib
+import struct
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "service", "client", "python"))
@@ -37,7 +42,84 @@ def encoded(number, kind, fields, payload):
     return HEADER.pack(MAGIC, 1, TYPES[kind], number, len(text), 0, len(payload)) + text + payload
 
 
-for name, message in CONVERSATIONS.items():
-    with open(os.path.join(sys.argv[1], name), "wb") as file:
-        # the first byte is the size of the pieces
-        file.write(bytes([20]) + encoded(1, *HELLO) + encoded(2, *message))
+def session_inputs():
+    """One valid conversation each; the first byte is the size of the pieces in which it comes."""
+    return {name: bytes([20]) + encoded(1, *HELLO) + encoded(2, *message) for name, message in CONVERSATIONS.items()}
+
+
+def chunks_inputs():
+    """Steps of tests/fuzz/chunks_input.h: flags, offset, length, what is added to the size."""
+    def steps(*values):
+        return b"".join(struct.pack("<BHHB", *step) for step in values)
+
+    ten, many, last = 4, 8, 12  # files of 10, 300 and 600 bytes
+    wrong, other_size, leaves = 16, 32, 128
+    return {
+        "empty": steps((0, 0, 0, 0)),
+        "whole": steps((ten, 0, 10, 0), (ten + 1, 0, 10, 0)),
+        "pieces": steps((many, 0, 100, 0), (many, 100, 100, 0), (many, 200, 100, 0)),
+        "together": steps((many, 0, 100, 0), (many + 1, 0, 200, 0), (many, 100, 200, 0), (many + 1, 200, 100, 0)),
+        "gap": steps((many, 0, 100, 0), (many, 150, 100, 0), (many, 0, 300, 0)),
+        "wrong": steps((ten + wrong, 0, 10, 0), (ten, 0, 10, 0)),
+        "size": steps((ten + other_size, 0, 10, 1), (ten, 0, 10, 0)),
+        "full": steps((last, 0, 600, 0), (many + other_size, 0, 300, 200), (many, 0, 300, 0)),
+        "leaves": steps((many, 0, 100, 0), (leaves, 0, 0, 0), (many, 100, 200, 0)),
+        "several": steps((ten, 0, 5, 0), (many, 0, 5, 0), (last, 0, 5, 0), (0, 0, 0, 0), (ten + other_size, 0, 5, 1)),
+    }
+
+
+def scene_inputs():
+    """The shipped scenes, and one with what they do not have."""
+    scenes = pathlib.Path(__file__).resolve().parents[2] / "configs" / "scenes"
+    found = {path.stem: path.read_bytes() for path in scenes.glob("*.toml")}
+    found["rest"] = b"""cloud = []
+fog = { media = [{ kind = "height", visibility = 500, scale_height = 100 }], filter = "pyramid", near = 1, far = 9 }
+[sun]
+direction_to = [0, 1, 0]
+[[surface]]
+kind = "plane"
+"""
+    return found
+
+
+def exr_inputs():
+    """Small pictures in every compression, in lines and tiles, of several types, windows and parts."""
+    import numpy
+    import OpenImageIO as oiio  # Debian's python3-openimageio
+
+    def picture(width, height, channels, kind, **attributes):
+        spec = oiio.ImageSpec(width, height, len(channels), kind)
+        spec.channelnames = channels
+        for name, value in attributes.items():
+            if name == "tile":
+                spec.tile_width = spec.tile_height = value
+            elif name == "corner":
+                spec.x, spec.y = value
+            else:
+                spec.attribute(name, value)
+        values = numpy.arange(width * height * len(channels), dtype=numpy.float32).reshape(height, width, len(channels))
+        path = pathlib.Path(sys.argv[2]) / "made.exr"
+        out = oiio.ImageOutput.create(str(path))
+        out.open(str(path), spec)
+        out.write_image(values / 16.0)
+        out.close()
+        content = path.read_bytes()
+        path.unlink()
+        return content
+
+    rgb = ("R", "G", "B")
+    found = {method: picture(5, 18, rgb, "half", compression=method) for method in (
+        "none", "rle", "zip", "zips", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab")}
+    found["floats"] = picture(3, 3, ("R", "G", "B", "A", "depth.Z"), "float", compression="zip")
+    found["integers"] = picture(3, 3, ("id",), "uint32", compression="zip")
+    found["tiles"] = picture(20, 20, rgb, "half", compression="zip", tile=16)
+    found["window"] = picture(4, 4, rgb, "float", corner=(-3, 7), scene="a scene")
+    return found
+
+
+if __name__ == "__main__":
+    kinds = {"chunks": chunks_inputs, "exr": exr_inputs, "scene": scene_inputs, "session": session_inputs}
+    if len(sys.argv) != 3 or sys.argv[1] not in kinds:
+        sys.exit(__doc__)
+    for name, content in kinds[sys.argv[1]]().items():
+        (pathlib.Path(sys.argv[2]) / name).write_bytes(content)

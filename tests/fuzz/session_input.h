@@ -1,12 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <stdexcept>
-#include <string>
-
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "fuzz/promise.h"
 #include "service/protocol/session.h"
 
 namespace lumulus::service::test {
@@ -15,10 +13,8 @@ namespace lumulus::service::test {
 /// Throws std::logic_error where what comes out breaks a promise: replies that are no JSON, requests without a hello,
 /// anything after the end, and results that depend on the pieces.
 inline void feedSession(std::span<const std::byte> input) {
+    using lumulus::test::promise;
     if (input.empty()) return;
-    const auto promise = [](bool kept, const char* what) {
-        if (!kept) throw std::logic_error(what);
-    };
     const SessionPolicy policy{"secret", "{}", {1U << 14U, 1U << 16U}, {1U << 20U, 4, 1U << 20U}};
     const std::size_t piece = 1 + std::to_integer<std::size_t>(input[0]);
     const std::span<const std::byte> bytes = input.subspan(1);
@@ -50,3 +46,11 @@ inline void feedSession(std::span<const std::byte> input) {
 }
 
 }  // namespace lumulus::service::test
+
+namespace lumulus::test {
+
+inline void feed(std::span<const std::byte> input) {
+    service::test::feedSession(input);
+}
+
+}  // namespace lumulus::test

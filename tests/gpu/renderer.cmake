@@ -1,4 +1,4 @@
-lumulus_test(renderer_test
+lumulus_test(renderer_test SANITIZED
   SOURCES ${CMAKE_CURRENT_LIST_DIR}/renderer_beside_test.cpp
           ${CMAKE_CURRENT_LIST_DIR}/renderer_clouds_test.cpp
           ${CMAKE_CURRENT_LIST_DIR}/renderer_fog_test.cpp

@@ -6,9 +6,9 @@
 
 #include "light/photon/photon_map.h"
 #include "support/cloud_cases.h"
+#include "support/deviation.h"
 #include "support/photon_setup.h"
 #include "support/statistics.h"
-#include "support/student.h"
 #include "support/vulkan_fixture.h"
 
 namespace lumulus::photon {

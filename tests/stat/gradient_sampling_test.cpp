@@ -5,8 +5,8 @@
 
 #include "cloud/asset.h"
 #include "support/cloud_cases.h"
+#include "support/deviation.h"
 #include "support/field.h"
-#include "support/statistics.h"
 #include "support/vulkan_fixture.h"
 
 namespace lumulus::cloud {

@@ -7,6 +7,7 @@
 #include "reference/aureole.h"
 #include "reference/tracer.h"
 #include "stat/ball.h"
+#include "support/deviation.h"
 #include "support/statistics.h"
 
 namespace lumulus::reference {

@@ -27,7 +27,7 @@ NEVER = {
 }
 # Libraries of others, and the only ones of ours that may link them.
 OWNERS = {
-    "Boost::headers": {"service", "client"},  # Asio and Beast
+    "Boost::headers": {"service", "client", "medium"},  # Asio and Beast; Math
     "OpenVDB::openvdb": {"vdb"},
     "Vulkan::Headers": {"volk"},
     "lumulus_volk": {"gpu"},

@@ -4,7 +4,7 @@ import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ("src", "vdb", "service", "shaders", "scripts", "tests", "cmake", ".ci")
-SKIPPED = ("tests/fuzz/corpus", "__pycache__")
+SKIPPED = ("tests/fuzz/corpus/", "__pycache__")
 BRACES = (".cpp", ".h", ".comp", ".glsl", ".js")
 
 # One alternative for each kind of text that is no code: comments, raw strings, strings, characters.

@@ -9,6 +9,7 @@
 #include "medium/axes.h"
 #include "medium/phase_function.h"
 #include "shared/phase.h"
+#include "support/deviation.h"
 #include "support/phase_cases.h"
 #include "support/statistics.h"
 

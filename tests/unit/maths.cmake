@@ -4,3 +4,4 @@ lumulus_test(phase_test
           ${CMAKE_CURRENT_LIST_DIR}/phase_test.cpp
   LINK lumulus_medium)
 lumulus_test(sh_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/sh_test.cpp LINK lumulus_medium)
+lumulus_test(deviation_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/deviation_test.cpp)

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "support/statistics.h"
+#include "support/deviation.h"
 
 namespace lumulus::reference {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "support/deviation.h"
 #include "support/statistics.h"
 
 namespace lumulus {

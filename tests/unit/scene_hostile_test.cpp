@@ -112,6 +112,8 @@ TEST(HostileScene, OddBytes) {
     EXPECT_EQ(outcomeOf("[image]\r\nwidth = 3\r\n"), Outcome::parsed);
     EXPECT_EQ(outcomeOf("\xc3\x28 = 1"), Outcome::badInput);
     EXPECT_EQ(outcomeOf("\"" + std::string(500000, 'x') + "\" = 1"), Outcome::badInput);
+    EXPECT_EQ(outcomeOf("[ = 32.0\n"), Outcome::badInput);
+    EXPECT_EQ(outcomeOf("a = { b  \u00b2 = 1 }"), Outcome::badInput);
     EXPECT_EQ(outcomeOf("[image]\nwidth = 99999999999999999999"), Outcome::badInput);
     EXPECT_EQ(outcomeOf("[image]\nexposure = 1e999"), Outcome::badInput);
     EXPECT_EQ(outcomeOf("[[cloud]]\nvdb = \"a\\u0000b\""), Outcome::badInput);

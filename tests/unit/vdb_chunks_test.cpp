@@ -89,6 +89,8 @@ TEST(ChunkReaders, BelieveNoLength) {
             EXPECT_THROW(read(length, std::string(100, '\2'), 4, blosc), openvdb::RuntimeError) << length;
         }
         EXPECT_THROW(read(std::numeric_limits<std::int64_t>::min(), "abcd", 4, blosc), openvdb::RuntimeError);
+        for (const std::int64_t length : {std::int64_t{1} << 32, std::numeric_limits<std::int64_t>::max()})
+            EXPECT_THROW(read(length, "abcd", 4, blosc), openvdb::RuntimeError) << length;
     }
 }
 

@@ -1,6 +1,11 @@
 // AddressSanitizer ends the process where operator new cannot have the memory that it was asked for; damaged files ask
 // for exabytes, and the loader answers the std::bad_alloc. So the tests with such files bring an operator new that
 // throws.
+#ifdef __has_feature  // clang
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__
+#endif
+#endif
 #ifdef __SANITIZE_ADDRESS__
 
 #include <cstdlib>

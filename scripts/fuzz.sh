@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# Fuzzes a parser with libFuzzer (Debian packages clang and xz-utils), under AddressSanitizer and
+# UndefinedBehaviorSanitizer: scripts/fuzz.sh TARGET [SECONDS, default 600] [FOLDER of more inputs to begin with].
+# Targets: chunks (uploads of the frame service), exr (pictures for compare and composite), scene (scene files),
+# session (connections of the frame service), vdb (OpenVDB files). The inputs that reach different code become
+# tests/fuzz/corpus/TARGET.tar.xz, which the test TARGET_corpus_test replays.
+set -euo pipefail
+cd -P "$(dirname "${BASH_SOURCE[0]}")/.."
+
+target=${1:-} seconds=${2:-600} more=${3:-}
+longest=4096
+case $target in
+chunks)
+    sources=(service/protocol/{frame_fields,json_fields,message,requests}.cpp service/render/upload_store.cpp
+             service/values/sha256.cpp)
+    libraries=(-lcrypto) longest=384
+    ;;
+exr)
+    sources=(src/base/{atomic_file,exr,exr_claims}.cpp)
+    # shellcheck disable=SC2207
+    libraries=($(pkg-config --cflags --libs OpenEXR) -lOpenEXRCore)
+    ;;
+scene)
+    sources=(src/scene/{keys,load,quality,read_value,schema,settings,suggest,toml_guard,validate}.cpp)
+    libraries=()
+    ;;
+session)
+    sources=(service/protocol/{error_reply,frame_fields,json_fields,message,requests,session}.cpp
+             service/values/sha256.cpp)
+    libraries=(-lcrypto)
+    ;;
+vdb)
+    sources=(vdb/{chunks,describe,file,header,load,sparse_field,transform}.cpp tests/unit/vdb_throwing_new.cpp)
+    libraries=(-I/usr/include/Imath -lopenvdb -ltbb -lblosc -lz -lImath) longest=65536
+    ;;
+*)
+    echo "usage: scripts/fuzz.sh chunks|exr|scene|session|vdb [SECONDS] [FOLDER]" >&2
+    exit 2
+    ;;
+esac
+
+build=$PWD/build/fuzz/$target archive=tests/fuzz/corpus/$target.tar.xz
+rm -rf "$build"
+mkdir -p "$build"/{corpus,found,merged}
+[[ ! -f $archive ]] || tar -xf "$archive" -C "$build/corpus"
+[[ -z $more ]] || cp "$more"/* "$build/found"
+
+echo "== Building build/fuzz/$target/fuzz"
+flags=(-std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined -DGLM_ENABLE_EXPERIMENTAL
+       -DLUMULUS_FUZZ_INPUT="\"fuzz/${target}_input.h\"" -I. -Isrc -Ishaders -Itests)
+clang++ "${flags[@]}" src/base/{interrupt,text}.cpp "${sources[@]}" tests/fuzz/fuzz_main.cpp "${libraries[@]}" -lfmt \
+    -o "$build/fuzz"
+
+echo "== Fuzzing $target for $seconds s"
+[[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm # inputs become files: where no disk is
+options=(-max_len="$longest" -timeout=10 -artifact_prefix="$build/")
+"$build/fuzz" "${options[@]}" -max_total_time="$seconds" -print_final_stats=1 "$build/found" "$build/corpus"
+"$build/fuzz" "${options[@]}" -merge=1 "$build/merged" "$build/corpus" "$build/found"
+tar --sort=name --owner=0 --group=0 --numeric-owner --mtime=@0 -C "$build/merged" -cJf "$archive" .
+echo "== $(find "$build/merged" -type f | wc -l) inputs in $archive ($(stat -c %s "$archive") bytes)"
