@@ -25,7 +25,7 @@ class ClientError : public std::runtime_error {
 
 /// One product of a view, as pixels: rows from the top, channels together, little-endian.
 struct FrameProduct {
-    std::string name;  ///< color (RGBA), cloud (RGB), transmittance (RGB), depth, front
+    std::string name;  ///< color (RGBA), cloud (RGBA), transmittance (RGB), depth, front
     int channels = 0;
     std::string type;        ///< half or float
     std::size_t offset = 0;  ///< in the payload

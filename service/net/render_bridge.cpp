@@ -1,5 +1,7 @@
 #include "service/net/render_bridge.h"
 
+#include <oneapi/tbb/global_control.h>
+
 #include <algorithm>
 #include <memory>
 #include <thread>
@@ -14,7 +16,8 @@ namespace lumulus::service {
 namespace {
 
 unsigned encoderThreads() {
-    return std::max(1U, std::thread::hardware_concurrency());
+    const std::size_t most = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    return std::max(1U, std::min(std::thread::hardware_concurrency(), static_cast<unsigned>(most)));
 }
 
 double millisecondsSince(Clock::time_point start) {
@@ -27,7 +30,7 @@ void stopIfCancelled(const Job& job) {
 
 EncodedPictures picturesOf(const Job& job, const FrameRequest& request, const FrameResult& result) {
     EncodedPictures pictures;
-    const EncodeOptions options{request.products, request.format, result.exposure};
+    const EncodeOptions options{request.products, request.format, result.exposure, result.background};
     for (const ViewResult& view : result.views) {
         stopIfCancelled(job);
         appendPicture(view.image, options, pictures);

@@ -29,7 +29,7 @@ struct ProductLayers {
 const ProductLayers& layersOf(Product product) {
     static const std::array<ProductLayers, 5> all{{
         {"color", {"R", "G", "B", "A"}, false},
-        {"cloud", {"cloud.R", "cloud.G", "cloud.B"}, false},
+        {"cloud", {"cloud.R", "cloud.G", "cloud.B", "cloud.A"}, false},
         {"transmittance", {"transmittance.R", "transmittance.G", "transmittance.B"}, false},
         {"depth", {"depth.Z"}, true},
         {"front", {"depth.front"}, true},
@@ -83,9 +83,11 @@ std::vector<std::byte> pictureFile(const LayeredImage& image, const EncodeOption
             for (const char* name : layersOf(product).layers) wanted.layers[name] = image.layers.at(name);
         return encodeExr(wanted, "frame");
     }
-    const auto rgb = toneMap(image, options.format.exposure.value_or(options.exposure));
-    if (options.format.encoding == Encoding::png) return encodePng(image.width, image.height, rgb);
-    return encodeJpeg(image.width, image.height, rgb, options.format.quality);
+    const double exposure = options.format.exposure.value_or(options.exposure);
+    if (options.format.encoding == Encoding::jpeg)
+        return encodeJpeg(image.width, image.height, toneMap(image, exposure), options.format.quality);
+    return encodePng(image.width, image.height,
+                     options.background ? toneMap(image, exposure) : toneMapWithAlpha(image, exposure));
 }
 
 }  // namespace

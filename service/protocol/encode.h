@@ -14,7 +14,8 @@ namespace lumulus::service {
 struct EncodeOptions {
     std::vector<Product> products;
     PictureFormat format;
-    double exposure = 0.0;  ///< stops, of the scene; for a format that names none
+    double exposure = 0.0;   ///< stops, of the scene; for a format that names none
+    bool background = true;  ///< false: R, G, B are premultiplied by A, and PNG files have alpha
 };
 
 /// The pictures of a frame, encoded: the payload of its reply and the description of it.

@@ -9,7 +9,7 @@ namespace lumulus::service {
 double nestedNoise(const LayeredImage& earlier, int earlierCount, const LayeredImage& later, int laterCount) {
     assert(0 < earlierCount && earlierCount < laterCount);
     constexpr float leastAlpha = 1e-3F;  // as in the definition of relMSE: transmittance below .999
-    const std::vector<float>& alpha = later.layers.at("A");
+    const std::vector<float>& alpha = later.layers.at("cloud.A");
     double sum = 0.0, counted = 0.0;
     for (const char* name : {"R", "G", "B"}) {
         const std::vector<float>& a = earlier.layers.at(name);

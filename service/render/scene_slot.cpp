@@ -323,6 +323,7 @@ FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {
     std::ranges::copy(tracePasses(), std::back_inserter(result.passes));
     result.shown = shown();
     result.exposure = scene_.image.exposure;
+    result.background = scene_.image.background;
     result.sunReduction = std::max(1, renderer_->sunReduction());
     return result;
 }

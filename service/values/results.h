@@ -67,9 +67,10 @@ struct SceneShown {
 struct FrameResult {
     SceneShown shown;
     std::vector<ViewResult> views;
-    double exposure = 0.0;  ///< stops, of the scene
-    int reduction = 1;      ///< by which the sides of the pictures were divided
-    int sunReduction = 1;   ///< by which the sides of the sun's shadow volume were divided
+    double exposure = 0.0;   ///< stops, of the scene
+    bool background = true;  ///< of the scene: whether the colours show the sky
+    int reduction = 1;       ///< by which the sides of the pictures were divided
+    int sunReduction = 1;    ///< by which the sides of the sun's shadow volume were divided
     double waitedMilliseconds = 0.0;
     double drawMilliseconds = 0.0;
     std::vector<PassTime> passes;  ///< those of photons since the scene's last frame, and those of this frame

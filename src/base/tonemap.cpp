@@ -33,6 +33,27 @@ std::uint8_t encode(double radiance, double dither) {
 
 }  // namespace
 
+std::vector<std::uint8_t> toneMapWithAlpha(const LayeredImage& image, double exposureStops) {
+    LayeredImage straight;
+    straight.width = image.width;
+    straight.height = image.height;
+    const std::vector<float>& alpha = image.layers.at("A");
+    for (const char* name : {"R", "G", "B"}) {
+        std::vector<float>& colour = straight.layer(name);
+        const std::vector<float>& premultiplied = image.layers.at(name);
+        for (std::size_t i = 0; i < colour.size(); ++i)
+            colour[i] = alpha[i] > 0.0F ? premultiplied[i] / alpha[i] : 0.0F;
+    }
+    const std::vector<std::uint8_t> rgb = toneMap(straight, exposureStops);
+    std::vector<std::uint8_t> rgba(image.pixels() * 4);
+    for (std::size_t i = 0; i < alpha.size(); ++i) {
+        std::copy_n(&rgb[3 * i], 3, &rgba[4 * i]);
+        const float cover = alpha[i] > 0.0F ? std::min(alpha[i], 1.0F) : 0.0F;  // NaN too
+        rgba[4 * i + 3] = static_cast<std::uint8_t>(std::lround(255.0F * cover));
+    }
+    return rgba;
+}
+
 std::vector<std::uint8_t> toneMap(const LayeredImage& image, double exposureStops) {
     const double gain = std::exp2(exposureStops);
     const std::array<const float*, 3> channels{image.layers.at("R").data(), image.layers.at("G").data(),

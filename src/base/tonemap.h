@@ -13,4 +13,9 @@ namespace lumulus {
 /// become black, infinity white.
 std::vector<std::uint8_t> toneMap(const LayeredImage& image, double exposureStops);
 
+/// Tone maps a picture whose R, G, B are premultiplied by its layer A: colours divided by A are mapped as by toneMap,
+/// and A is rounded to 8 bits, linear. Returns width·height·4 bytes, rows from the top, as PNG wants them. Where A is 0
+/// all four are 0.
+std::vector<std::uint8_t> toneMapWithAlpha(const LayeredImage& image, double exposureStops);
+
 }  // namespace lumulus

@@ -4,21 +4,25 @@
 #include <functional>
 #include <map>
 #include <new>
+#include <span>
 
 #include "base/error.h"
 #include "base/log.h"
 #include "base/version.h"
+#include "cli/advice.h"
 #include "cli/bench.h"
 #include "cli/cloud.h"
 #include "cli/compare.h"
 #include "cli/composite.h"
 #include "cli/fetch.h"
+#include "cli/help.h"
 #include "cli/info.h"
 #include "cli/output.h"
 #include "cli/reference.h"
 #include "cli/render.h"
 #include "cli/serve.h"
 #include "cli/slab.h"
+#include "cli/threads.h"
 
 namespace lumulus::cli {
 namespace {
@@ -115,6 +119,8 @@ void addReference(CLI::App& app, ReferenceOptions& options, Action& action) {
     command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
         ->allow_extra_args(false);
     command->add_option("--seed", options.seed, "Seed of the random numbers (photon_map.seed)")->check(seedRange());
+    command->add_option("--stats", options.stats, "Write statistics as JSON to this file, - for standard output")
+        ->check(notEmpty());
     command->add_flag("--quiet", options.quiet, "No progress");
     command->footer(
         "Example:\n  lumulus reference configs/scenes/cumulus.toml -o truth.exr --spp 256 --majorant local");
@@ -146,8 +152,14 @@ void addCompare(CLI::App& app, CompareOptions& options, Action& action) {
 void addComposite(CLI::App& app, CompositeOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("composite", "Show a picture of any renderer through a scene's fog");
     command->add_option("--color", options.color, "Picture (.exr) with R, G and B, linear")->required();
-    command->add_option("--depth", options.depth,
-                        "File (.exr) with Z or depth.Z; default: the picture itself. See fog.depth for its meaning");
+    command->add_option(
+        "--depth", options.depth,
+        "File (.exr) with Z or depth.Z, in any part or layer; default: the picture itself. See fog.depth for "
+        "its meaning");
+    command
+        ->add_option("--layer", options.layer,
+                     "Layer or part of the colour, such as ViewLayer.Combined; default: R, G, B, or the only layer")
+        ->check(notEmpty());
     command->add_option("--scene", options.scene, "Scene file (TOML): its camera and its fog")->required();
     command->add_option("-o,--output", options.outputs, "Picture: .exr (linear float) or .png; may repeat")
         ->required()
@@ -239,18 +251,37 @@ void addFetch(CLI::App& app, FetchOptions& options, Action& action) {
     command->callback([&options, &action] { action = [&options] { runFetch(options); }; });
 }
 
-/// Refuses `lumulus nonsense --help`, for which CLI11 would print the general help.
-void refuseUnknownCommand(const CLI::App& app) {
-    const std::vector<std::string> unknown = app.remaining();
-    if (app.get_subcommands().empty() && !unknown.empty())
-        throw InputError("unknown command \"" + unknown.front() + "\"", "command line", "see lumulus --help");
+void addHelp(CLI::App& app, HelpOptions& options, Action& action) {
+    CLI::App* command = app.add_subcommand("help", "Show the help of the program or of a command");
+    command->add_option("command", options.command, "Command to explain");
+    command
+        ->add_option("--files", options.files, "Write man pages and the completion of bash below this folder instead")
+        ->check(notEmpty());
+    command->footer("Example:\n  lumulus help render");
+    command->callback([&app, &options, &action] { action = [&app, &options] { runHelp(app, options); }; });
+}
+
+/// --threads, before the command or behind it.
+void addThreads(CLI::App& app, std::optional<int>& threads) {
+    std::vector<CLI::App*> all = app.get_subcommands([](const CLI::App*) { return true; });
+    all.push_back(&app);
+    for (CLI::App* command : all)
+        command->add_option("--threads", threads, "Use at most this many threads of the CPU (default: one a core)")
+            ->check(CLI::Range(1, 1024));
+}
+
+ThreadUse useOf(const std::string& command, const InfoOptions& info, const SlabOptions& slab) {
+    if (command == "serve") return ThreadUse::server;
+    const bool device = command == "render" || command == "composite" || command == "bench" ||
+                        (command == "slab" && !slab.reference) || (command == "info" && info.devices);
+    return device ? ThreadUse::device : ThreadUse::host;
 }
 
 /// Parses the command line and runs the command. Errors of CLI11 become bad usage; help and version do not fail.
 void parseAndRun(int argc, const char* const* argv) {
     CLI::App app("Lumulus renders clouds.", "lumulus");
     app.set_version_flag("--version", std::string("lumulus ") + version);
-    app.footer("Each command has its own help: lumulus render --help");
+    app.footer("Each command has its own help: lumulus help render");
     app.require_subcommand(1);
     Action action;
     RenderOptions render;
@@ -263,6 +294,8 @@ void parseAndRun(int argc, const char* const* argv) {
     SlabOptions slab;
     ServeOptions serve;
     FetchOptions fetch;
+    HelpOptions help;
+    std::optional<int> threads;
     addRender(app, render, action);
     addCloud(app, cloud, action);
     addInfo(app, info, action);
@@ -273,10 +306,12 @@ void parseAndRun(int argc, const char* const* argv) {
     addSlab(app, slab, action);
     addServe(app, serve, action);
     addFetch(app, fetch, action);
+    addHelp(app, help, action);
+    addThreads(app, threads);
+    refuseUnknownWords(app, std::span(argv, static_cast<std::size_t>(argc)).subspan(argc > 0 ? 1 : 0));
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success&) {
-        refuseUnknownCommand(app);
         printOut(app.count("--version") > 0 ? app.version() + "\n" : app.help());
         return;
     } catch (const CLI::ParseError& e) {
@@ -284,6 +319,7 @@ void parseAndRun(int argc, const char* const* argv) {
         const std::string name = chosen.empty() ? "lumulus" : "lumulus " + chosen.front()->get_name();
         throw InputError(e.what(), "command line", "see " + name + " --help");
     }
+    limitThreads(threads, useOf(app.get_subcommands().front()->get_name(), info, slab));
     action();
 }
 
@@ -299,7 +335,7 @@ int run(int argc, const char* const* argv) {
     } catch (const std::bad_alloc&) {
         logError("out of memory: make the picture or the cloud smaller");
     } catch (const std::exception& e) {
-        logError(std::string(e.what()) + ": this should not happen, please report it");
+        logError(unforeseen(e));
     }
     return 1;
 }

@@ -4,19 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
+#include <span>
 
 #include "base/error.h"
 #include "base/exr.h"
 #include "base/log.h"
 #include "base/stopwatch.h"
 #include "base/version.h"
+#include "cli/exr_layers.h"
 #include "cli/output.h"
 #include "cli/stats_json.h"
 #include "fog/screen/depth.h"
 #include "fog/screen/fog.h"
 #include "scene/load.h"
-#include "view/camera.h"
+#include "view/view.h"
 
 namespace lumulus::cli {
 namespace {
@@ -24,24 +25,41 @@ namespace {
 /// Largest radiance; sums of larger values would leave the range of floats.
 constexpr float brightest = 1e20F;
 
-std::string layerNames(const LayeredImage& image) {
-    std::vector<std::string> names;
-    for (const auto& layer : image.layers) names.push_back(layer.first);
-    return fmt::format("{}", fmt::join(names, ", "));
+constexpr const char* colours[3] = {"R", "G", "B"};
+
+/// A picture under the names R, G, B and A, with where its pixels lie.
+struct Picture {
+    LayeredImage image;
+    std::vector<ExrPart> parts;  ///< of its file
+    std::string layer;
+    ExrWindows windows;
+};
+
+Picture readPicture(const CompositeOptions& options) {
+    Picture picture;
+    picture.parts = listExrParts(options.color);
+    const ColourChannels found = findColour(picture.parts, options.layer, options.color);
+    std::vector<std::string> names(found.names.begin(), found.names.end());
+    if (found.alpha) names.push_back(*found.alpha);
+    LayeredImage read = readExrChannels(options.color, found.part, names);
+    picture.layer = found.layer;
+    picture.windows = picture.parts[found.part].windows;
+    picture.image.width = read.width;
+    picture.image.height = read.height;
+    picture.image.attributes = std::move(read.attributes);
+    for (std::size_t c = 0; c < 3; ++c) picture.image.layers[colours[c]] = read.layers.at(found.names[c]);
+    if (found.alpha) picture.image.layers["A"] = read.layers.at(*found.alpha);
+    return picture;
 }
 
 /// R, G, B as texels with alpha 1. Values that are no finite numbers become black, with a warning.
 std::vector<glm::vec4> radianceOf(const LayeredImage& image, const std::filesystem::path& path) {
     std::vector<glm::vec4> radiance(image.pixels(), glm::vec4(1.0F));
     std::size_t bad = 0;
-    const char* names[3] = {"R", "G", "B"};
     for (int channel = 0; channel < 3; ++channel) {
-        const auto layer = image.layers.find(names[channel]);
-        if (layer == image.layers.end())
-            throw InputError(fmt::format("the picture has no layer {} (it has {})", names[channel], layerNames(image)),
-                             path.string(), "give one with R, G and B");
+        const std::vector<float>& layer = image.layers.at(colours[channel]);
         for (std::size_t i = 0; i < radiance.size(); ++i) {
-            const float value = layer->second[i];
+            const float value = layer[i];
             bad += std::isfinite(value) ? 0 : 1;
             radiance[i][channel] = std::isfinite(value) ? std::clamp(value, -brightest, brightest) : 0.0F;
         }
@@ -50,48 +68,71 @@ std::vector<glm::vec4> radianceOf(const LayeredImage& image, const std::filesyst
     return radiance;
 }
 
-std::vector<float> distancesOf(LayeredImage& image, const std::filesystem::path& path, const scene::Fog& fog,
-                               const Camera& camera) {
-    for (const char* name : {"Z", "depth.Z"}) {
-        const auto layer = image.layers.find(name);
-        if (layer == image.layers.end()) continue;
-        const std::size_t bad = fog::depthToDistance(layer->second, fog, camera);
-        if (bad > 0) logWarning(fmt::format("{} depths of {} are negative or no numbers", bad, path.string()));
-        return std::move(layer->second);
+std::string textOf(const ExrWindow& window) {
+    return fmt::format("({} {}) - ({} {})", window.x, window.y, window.x + window.width - 1,
+                       window.y + window.height - 1);
+}
+
+/// The pixels of `values`, which cover `from`, in the window `part`.
+std::vector<float> cropped(const std::vector<float>& values, const ExrWindow& from, const ExrWindow& part,
+                           const std::filesystem::path& path) {
+    const bool covers = from.x <= part.x && from.y <= part.y && from.x + from.width >= part.x + part.width &&
+                        from.y + from.height >= part.y + part.height;
+    if (!covers && (from.width != part.width || from.height != part.height))
+        throw InputError(fmt::format("the depth has {} × {} pixels, the picture {} × {}", from.width, from.height,
+                                     part.width, part.height),
+                         path.string(), "give both in one size");
+    if (!covers)
+        throw InputError(fmt::format("the depth has the data window {}, the picture {}", textOf(from), textOf(part)),
+                         path.string(), "give both in one window");
+    std::vector<float> result;
+    result.reserve(static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.height));
+    for (int y = part.y; y < part.y + part.height; ++y) {
+        const auto row = values.begin() + static_cast<std::ptrdiff_t>(y - from.y) * from.width + (part.x - from.x);
+        result.insert(result.end(), row, row + part.width);
     }
-    throw InputError(fmt::format("the picture has no layer Z or depth.Z (it has {})", layerNames(image)), path.string(),
-                     "give the depth with --depth");
+    return result;
+}
+
+std::vector<float> distancesOf(const Picture& picture, const CompositeOptions& options, const scene::Fog& fog,
+                               const Camera& camera) {
+    const bool same = options.depth.empty();
+    const std::filesystem::path& path = same ? options.color : options.depth;
+    const std::vector<ExrPart> parts = same ? picture.parts : listExrParts(path);
+    const DepthChannel channel = findDepth(parts, picture.layer, path);
+    LayeredImage read = readExrChannels(path, channel.part, std::span(&channel.name, 1));
+    std::vector<float> depth =
+        cropped(read.layers.at(channel.name), parts[channel.part].windows.data, picture.windows.data, path);
+    const std::size_t bad = fog::depthToDistance(depth, fog, camera);
+    if (bad > 0) logWarning(fmt::format("{} depths of {} are negative or no numbers", bad, path.string()));
+    return depth;
 }
 
 void setRadiance(LayeredImage& image, const std::vector<glm::vec4>& radiance) {
-    const char* names[3] = {"R", "G", "B"};
     for (int channel = 0; channel < 3; ++channel) {
-        std::vector<float>& layer = image.layer(names[channel]);
+        std::vector<float>& layer = image.layer(colours[channel]);
         for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = radiance[i][channel];
     }
 }
 
-void checkSameSize(const LayeredImage& color, const LayeredImage& depth, const std::filesystem::path& path) {
-    if (color.width == depth.width && color.height == depth.height) return;
-    throw InputError(fmt::format("the depth has {} × {} pixels, the picture {} × {}", depth.width, depth.height,
-                                 color.width, color.height),
-                     path.string(), "give both in one size");
+/// The scene's camera looks through the display window, the picture is its data window.
+Camera cameraOf(const scene::Scene& scene, const ExrWindows& windows) {
+    const ExrWindow &display = windows.display, &data = windows.data;
+    scene::Image size = scene.image;
+    size.width = display.width;
+    size.height = display.height;
+    return windowCamera(makeCamera(scene.camera, size, Bounds{}),
+                        {data.x - display.x, data.y - display.y, data.width, data.height});
 }
 
 /// Shows the picture through the fog, in place.
-void applyFog(LayeredImage& color, const CompositeOptions& options, const scene::Scene& scene, Statistics& statistics) {
-    LayeredImage depth = options.depth.empty() ? color : readExr(options.depth);
-    const std::filesystem::path& depthPath = options.depth.empty() ? options.color : options.depth;
-    checkSameSize(color, depth, depthPath);
-    scene::Image size = scene.image;
-    size.width = color.width;
-    size.height = color.height;
-    const Camera camera = makeCamera(scene.camera, size, Bounds{});
-    const fog::Layer layer{radianceOf(color, options.color), distancesOf(depth, depthPath, scene.fog, camera)};
+void applyFog(Picture& picture, const CompositeOptions& options, const scene::Scene& scene, Statistics& statistics) {
+    const Camera camera = cameraOf(scene, picture.windows);
+    const fog::Layer layer{radianceOf(picture.image, options.color), distancesOf(picture, options, scene.fog, camera)};
 
     gpu::Context context({options.device, options.validate});
     fog::Fog fog(context, scene.fog);
-    setRadiance(color, fog.apply(layer, camera));
+    setRadiance(picture.image, fog.apply(layer, camera));
     statistics.device = context.device().name;
     statistics.gpuBytes = context.memory().used;
     statistics.gpuBytesHeld = context.memory().held;
@@ -112,20 +153,18 @@ void runComposite(const CompositeOptions& options) {
 
     Statistics statistics;
     const Stopwatch loading;
-    LayeredImage color = readExr(options.color);
+    Picture picture = readPicture(options);
+    LayeredImage& image = picture.image;
     statistics.loadSeconds = loading.seconds();
     const Stopwatch drawing;
-    if (!scene.fog.media.empty()) applyFog(color, options, scene, statistics);
+    if (!scene.fog.media.empty()) applyFog(picture, options, scene, statistics);
     statistics.drawSeconds = drawing.seconds();
-    // depth and other layers of the file do not describe the picture through the fog
-    std::erase_if(color.layers, [](const auto& layer) {
-        return layer.first.size() != 1 || std::string_view("RGBA").find(layer.first) == std::string_view::npos;
-    });
-    color.attributes["scene"] = scene.source;
-    color.attributes["software"] = std::string("lumulus ") + version;
+    if (!scene.image.background) image.layer("A", 1.0F);  // a picture without alpha covers all
+    image.attributes["scene"] = scene.source;
+    image.attributes["software"] = std::string("lumulus ") + version;
 
     const Stopwatch writing;
-    for (const auto& output : options.outputs) writePicture(output, color, scene.image.exposure);
+    for (const auto& output : options.outputs) writePicture(output, image, scene.image, picture.windows);
     writeStatistics(options.stats, statisticsJson(statistics, std::nullopt, writing.seconds(), total.seconds()));
     requireNoMessages(options.validate, statistics);
 }

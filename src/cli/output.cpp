@@ -11,7 +11,6 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
-#include "base/exr.h"
 #include "base/png.h"
 #include "base/tonemap.h"
 
@@ -35,27 +34,27 @@ void requireSuffix(const std::filesystem::path& path, std::initializer_list<std:
 void checkPlaces(const std::vector<std::filesystem::path>& outputs) {
     std::set<std::filesystem::path> files;
     for (const auto& output : outputs) {
-        std::error_code ec;
-        const std::filesystem::path file = std::filesystem::weakly_canonical(output, ec);
-        if (!files.insert(ec ? output.lexically_normal() : file).second)
+        if (!files.insert(outputFile(output)).second)
             throw InputError("the same output is given twice", output.string(), "give each output a name of its own");
     }
     for (const auto& output : outputs) checkWritable(output);
 }
 
-void writePicture(const std::filesystem::path& path, const LayeredImage& image, double exposure) {
+void writePicture(const std::filesystem::path& path, const LayeredImage& image, const scene::Image& how,
+                  const std::optional<ExrWindows>& windows) {
     if (hasSuffix(path, ".exr")) {
-        writeExr(path, image);
+        writeExr(path, image, windows);
     } else {
-        writePng(path, image.width, image.height, toneMap(image, exposure));
+        writePng(path, image.width, image.height,
+                 how.background ? toneMap(image, how.exposure) : toneMapWithAlpha(image, how.exposure));
     }
 }
 
 void printOut(std::string_view text) {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-        throw Error("cannot write: " + std::generic_category().message(errno), "standard output",
-                    "free some space, or give it a place that is open");
-    }
+    if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
+    if (errno == EPIPE) return;  // the reader has read enough (| head)
+    throw Error("cannot write: " + std::generic_category().message(errno), "standard output",
+                "free some space, or give it a place that is open");
 }
 
 }  // namespace lumulus::cli

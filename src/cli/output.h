@@ -2,11 +2,14 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/exr.h"
 #include "base/image.h"
+#include "scene/scene.h"
 
 namespace lumulus::cli {
 
@@ -20,10 +23,13 @@ void requireSuffix(const std::filesystem::path& path, std::initializer_list<std:
 /// Errors: InputError if two of them are the same file, by any names, or if one cannot be written to.
 void checkPlaces(const std::vector<std::filesystem::path>& outputs);
 
-/// Writes a picture by its suffix: .exr with all layers, or .png tone mapped. Errors: those of writing files.
-void writePicture(const std::filesystem::path& path, const LayeredImage& image, double exposure);
+/// Writes a picture by its suffix: .exr with all layers, or .png tone mapped with the exposure of `how`, and with alpha
+/// where `how` leaves the background out. `windows` are those of an EXR file. Errors: those of writing files.
+void writePicture(const std::filesystem::path& path, const LayeredImage& image, const scene::Image& how,
+                  const std::optional<ExrWindows>& windows = std::nullopt);
 
-/// Writes text to stdout. Errors: Error if it cannot be written (a full disk, a closed pipe).
+/// Writes text to stdout. A reader that has gone (`| head`) is no error: it has read enough. Errors: Error if the text
+/// cannot be written (a full disk).
 void printOut(std::string_view text);
 
 }  // namespace lumulus::cli

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -14,6 +15,7 @@
 #include "base/progress.h"
 #include "base/version.h"
 #include "cli/output.h"
+#include "cli/stats_json.h"
 #include "reference/film_file.h"
 #include "reference/render.h"
 #include "scene/load.h"
@@ -43,8 +45,9 @@ void checkOptions(const ReferenceOptions& options) {
         throw InputError("the time to stop is not a number", "--seconds", "give a number of seconds");
     }
     requireSuffix(options.output, {".exr"});
-    checkWritable(options.output);
-    checkWritable(reference::sumsBeside(options.output));
+    std::vector<std::filesystem::path> places{options.output, reference::sumsBeside(options.output)};
+    if (!options.stats.empty() && options.stats != "-") places.emplace_back(options.stats);
+    checkPlaces(places);
 }
 
 reference::Renderer rendererOf(const ReferenceOptions& options, const scene::Scene& scene) {
@@ -61,6 +64,12 @@ void resume(const ReferenceOptions& options, reference::Renderer& renderer) {
     if (std::filesystem::exists(sums) || std::filesystem::exists(options.output)) {
         renderer.resume(reference::readFilm(sums, renderer.fingerprint()));
     }
+}
+
+/// The text for --stats.
+std::string statisticsOf(const reference::Film& film) {
+    const nlohmann::ordered_json json{{"samples", film.samples}, {"seconds", film.seconds}, {"lost", film.lost}};
+    return json.dump(2) + "\n";
 }
 
 /// Runs passes until the samples or the seconds are reached, or until Ctrl-C.
@@ -103,7 +112,6 @@ void write(const ReferenceOptions& options, const scene::Scene& scene, const ref
     image.attributes["device"] = "CPU";
     image.attributes["majorant"] = options.localMajorant ? "local" : "global";
     image.attributes["samples"] = std::to_string(film.samples);
-    image.attributes["seconds"] = fmt::format("{:.3f}", film.seconds);
     image.attributes["lost"] = std::to_string(film.lost);
     // the sums come first: an interruption between the two files loses no work
     reference::writeFilm(reference::sumsBeside(options.output), film, renderer.fingerprint());
@@ -121,6 +129,7 @@ void runReference(const ReferenceOptions& options) {
     const std::uint64_t samples = renderer.film().samples;
     if (samples == 0) throw Error("interrupted before the first sample of every pixel", "", "nothing was written");
     write(options, scene, renderer);
+    writeStatistics(options.stats, statisticsOf(renderer.film()));
     if (renderer.film().lost > 0)
         logWarning(fmt::format("{} paths were lost: they reached the limit of scattering events{}",
                                renderer.film().lost,

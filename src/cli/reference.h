@@ -17,6 +17,7 @@ struct ReferenceOptions {
     bool resume = false;
     std::vector<std::string> overrides;
     std::optional<std::uint64_t> seed;  ///< absent: photon_map.seed
+    std::string stats;                  ///< file, "-" for stdout, empty for none
     bool quiet = false;
 };
 

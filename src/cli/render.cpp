@@ -103,9 +103,9 @@ void tellReached(const RenderOptions& options, const Statistics& statistics, con
                         reached.biasEstimate, *options.targetError));
 }
 
-void writeOutputs(const RenderOptions& options, const LayeredImage& image, double exposure, Steps& steps) {
+void writeOutputs(const RenderOptions& options, const LayeredImage& image, const scene::Image& how, Steps& steps) {
     steps.report("writing", 0, 1);
-    for (const auto& output : options.outputs) writePicture(output, image, exposure);
+    for (const auto& output : options.outputs) writePicture(output, image, how);
     steps.report("writing", 1, 1);
 }
 
@@ -138,10 +138,9 @@ void runRender(const RenderOptions& options) {
     image.attributes["software"] = std::string("lumulus ") + version;
     image.attributes["device"] = statistics.device;
     image.attributes["samples"] = std::to_string(statistics.photons);
-    image.attributes["seconds"] = std::to_string(secondsSince(start));
 
     const Clock::time_point writing = Clock::now();
-    writeOutputs(options, image, scene.image.exposure, steps);
+    writeOutputs(options, image, scene.image, steps);
     const double writeSeconds = secondsSince(writing);
     const double seconds = secondsSince(start);
     if (reached) tellReached(options, statistics, *reached, seconds);

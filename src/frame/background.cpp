@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 namespace lumulus::frame {
@@ -42,13 +43,14 @@ bool maySeeSun(const Camera& camera, const glm::dvec3& directionTo, double radiu
 LayeredImage emptyFrame(const Tile& tile, const glm::dvec3& radiance) {
     constexpr float none = 0.0F, all = 1.0F;
     const glm::vec3 background(radiance);
-    const std::array<std::pair<const char*, float>, 12> values{{{"R", background.r},
+    const std::array<std::pair<const char*, float>, 13> values{{{"R", background.r},
                                                                 {"G", background.g},
                                                                 {"B", background.b},
-                                                                {"A", none},
+                                                                {"A", all},
                                                                 {"cloud.R", none},
                                                                 {"cloud.G", none},
                                                                 {"cloud.B", none},
+                                                                {"cloud.A", none},
                                                                 {"transmittance.R", all},
                                                                 {"transmittance.G", all},
                                                                 {"transmittance.B", all},
@@ -101,11 +103,15 @@ LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& 
     return image;
 }
 
+void leaveOutBackground(LayeredImage& image) {
+    for (const char* name : {"R", "G", "B", "A"}) image.layers.at(name) = image.layers.at(std::string("cloud.") + name);
+}
+
 void copyPixels(std::span<const shared::Pixel> pixels, LayeredImage& image, const Tile& place) {
     const auto across = static_cast<std::size_t>(image.width), width = static_cast<std::size_t>(place.width);
     // a pixel's floats in the order of its members; what is seen through is the same for all colours
     const std::array<const char*, 10> names{
-        "cloud.R", "cloud.G", "cloud.B", "transmittance.R", "A", "depth.Z", "depth.front", "R", "G", "B"};
+        "cloud.R", "cloud.G", "cloud.B", "transmittance.R", "cloud.A", "depth.Z", "depth.front", "R", "G", "B"};
     constexpr std::size_t transmittance = 3;
     static_assert(offsetof(shared::Pixel, unused) == std::tuple_size_v<decltype(names)> * sizeof(float));
     std::array<float*, names.size()> layers{};

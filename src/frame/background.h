@@ -12,7 +12,7 @@
 
 namespace lumulus::frame {
 
-/// All layers that a picture has, of that radiance, nothing in the way.
+/// All layers that a picture has, of that radiance, nothing in the way. A is 1: the background is part of R, G, B.
 LayeredImage emptyFrame(const Tile& tile, const glm::dvec3& radiance = glm::dvec3(0.0));
 
 /// The pixels of the part `tile` that see the sun's disc, but for those in the part `without`, with the radiance that
@@ -24,6 +24,9 @@ std::vector<shared::SunPixel> sunPixels(const Camera& camera, const Tile& tile, 
 /// along each side of a pixel meet the disc or not; it may be left out in a part, which is drawn later.
 LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& sun,
                       const sky::Environment& environment, int rays = 1, const Tile& without = {0, 0, 0, 0});
+
+/// Leaves the background out of a picture: R, G, B and A become those of the cloud alone.
+void leaveOutBackground(LayeredImage& image);
 
 /// Spreads a rectangle of pixels over the layers of an image; `place` is where it lies in it.
 void copyPixels(std::span<const shared::Pixel> pixels, LayeredImage& image, const Tile& place);

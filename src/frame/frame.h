@@ -19,7 +19,7 @@ class Frame {
     Frame(gpu::Context& context, const glm::ivec2& size);
 
     const glm::ivec2& size() const { return size_; }
-    /// RGB: light of the cloud (layers cloud.R, G, B); alpha: how much of the pixel the cloud covers (layer A).
+    /// RGB: light of the cloud (layers cloud.R, G, B); alpha: how much of the pixel the cloud covers (layer cloud.A).
     const gpu::Image& cloud() const { return cloud_; }
     /// RGB: all that is seen (layers R, G, B); alpha: transmittance of the cloud.
     const gpu::Image& radiance() const { return radiance_; }

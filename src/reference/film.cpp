@@ -37,7 +37,7 @@ double meanOf(const glm::dvec3& rgb) {
 void putLines(const Film& film, LayeredImage& image) {
     const auto count = static_cast<double>(std::bit_width(film.samples));  // powers of two up to the samples
     const Layers transmittance = layersOf(image, "transmittance.");
-    float* alpha = image.layer("A").data();
+    float* alpha = image.layer("cloud.A").data();
     float* depth = image.layer("depth.Z").data();
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         const PixelSums& sums = film.pixels[i];
@@ -50,7 +50,7 @@ void putLines(const Film& film, LayeredImage& image) {
 
 }  // namespace
 
-LayeredImage picture(const Film& film, const glm::dvec3& skyUnit, const glm::dvec3& disc) {
+LayeredImage picture(const Film& film, const glm::dvec3& skyUnit, const glm::dvec3& disc, bool background) {
     assert(film.samples > 0);
     LayeredImage image;
     image.width = film.width;
@@ -67,6 +67,8 @@ LayeredImage picture(const Film& film, const glm::dvec3& skyUnit, const glm::dve
         if (sums.discSamples > 0.0) image.layer("sun.disc")[i] = static_cast<float>(sums.discSamples / n);
     }
     putLines(film, image);
+    std::vector<float>& alpha = image.layer("A", 1.0F);
+    if (!background) alpha = image.layers.at("cloud.A");
     return image;
 }
 

@@ -45,11 +45,11 @@ inline bool isLineSample(std::uint64_t sample) {
 /// Depth of a pixel without cloud and surface, metres.
 constexpr double farDepth = 1e10;
 
-/// The means as layers: R, G, B, A, cloud.{R,G,B} (all light except the sky and sun directly behind),
-/// transmittance.{R,G,B} (of cloud, fog and surfaces; A is 1 less their mean), depth.Z (of cloud and surfaces; fog has
-/// no depth), from two samples on variance.{R,G,B} (of the mean, not of a sample), and sun.disc, the share of the pixel
-/// that the sun's disc covers, where it is in the picture. `skyUnit` is Environment::unit and `disc` the radiance of
-/// the disc. At least one sample.
-LayeredImage picture(const Film& film, const glm::dvec3& skyUnit, const glm::dvec3& disc);
+/// The means as layers: R, G, B; A (1, or cloud.A where the samples leave the background out); cloud.{R,G,B} (all light
+/// except the sky and sun directly behind), transmittance.{R,G,B} (of cloud, fog and surfaces; cloud.A is 1 less their
+/// mean), depth.Z (of cloud and surfaces; fog has no depth), from two samples on variance.{R,G,B} (of the mean of R, G,
+/// B, not of a sample), and sun.disc, the share of the pixel that the sun's disc covers, where it is in the picture.
+/// `skyUnit` is Environment::unit and `disc` the radiance of the disc. At least one sample.
+LayeredImage picture(const Film& film, const glm::dvec3& skyUnit, const glm::dvec3& disc, bool background);
 
 }  // namespace lumulus::reference

@@ -61,6 +61,7 @@ std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::Pl
     for (std::size_t i = 0; i < volumes.size(); ++i) addCloud(print, scene.clouds[i], volumes[i]);
     if (!scene.fog.media.empty()) addFog(print, scene.fog);
     for (const scene::Surface& surface : scene.surfaces) addSurface(print, surface);
+    if (!scene.image.background) print.add(scene.image.background);
     return print.value();
 }
 
@@ -71,6 +72,7 @@ Renderer::Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolum
     : camera_(makeCamera(scene.camera, scene.image, boundsOf(volumes))),
       tracer_(scene, volumes, majorant, camera_.position),
       discRadiance_(tracer_.environment().discRadiance(camera_.position, scene.sun.directionTo)),
+      background_(scene.image.background),
       seed_(seed),
       fingerprint_(fingerprintOf(scene, volumes, camera_, majorant, seed)) {
     film_.width = scene.image.width;
@@ -94,7 +96,7 @@ Renderer::Sample Renderer::sample(int x, int y) const {
     Sample result;
     result.lost = path.lost;
     result.sums.scattered = path.radiance;
-    result.sums.passed = path.passed;
+    if (background_) result.sums.passed = path.passed;
     const bool atDisc = tracer_.environment().discRadiance(ray.origin, ray.direction) != glm::dvec3(0.0);
     const bool forLines = isLineSample(film_.samples);
     if (atDisc || forLines) {
@@ -105,7 +107,7 @@ Renderer::Sample Renderer::sample(int x, int y) const {
             result.sums.distance = line.distance;
         }
         if (atDisc) {
-            result.sums.disc = line.transmittance;
+            if (background_) result.sums.disc = line.transmittance;
             result.sums.discSamples = 1.0;
         }
     }
@@ -144,7 +146,7 @@ bool Renderer::pass(const Continue& goOn) {
 }
 
 LayeredImage Renderer::picture() const {
-    LayeredImage image = reference::picture(film_, tracer_.environment().unit(), discRadiance_);
+    LayeredImage image = reference::picture(film_, tracer_.environment().unit(), discRadiance_, background_);
     std::vector<float>& front = image.layer("depth.front");
     tbb::parallel_for(0, film_.width * film_.height, [&](int pixel) {
         const Ray middle = camera_.ray(pixel % film_.width + 0.5, pixel / film_.width + 0.5);

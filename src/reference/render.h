@@ -48,6 +48,7 @@ class Renderer {
     Camera camera_;
     PathTracer tracer_;
     glm::dvec3 discRadiance_;
+    bool background_;  ///< whether samples hold the sky and the sun's disc directly behind
     std::uint64_t seed_;
     std::uint64_t fingerprint_;
     Film film_;

@@ -54,7 +54,8 @@ LayeredImage PictureOrder::picture(ViewState::State& state, const View& view) {
         painter->paint(work, world, state, draw::allBands(state.shown), fog == nullptr ? &image : nullptr, check,
                        report);
     }
-    if (fog != nullptr) return throughFog(state, wanted);
+    if (fog != nullptr) image = throughFog(state, wanted);
+    if (!view.image.background) frame::leaveOutBackground(image);
     return image;
 }
 

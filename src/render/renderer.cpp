@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "frame/background.h"
 #include "frame/view_params.h"
 #include "render/changes.h"
 #include "render/pass_stage.h"
@@ -179,6 +180,8 @@ Preview Renderer::preview() {
     s.show(viewState.state(), sceneView());
     PictureOrder order{s.work, *s.world, &*s.painter, nullptr, s.photonMap.bands, s.sunAllowed, s.check, noReport};
     Preview preview = order.preview(viewState.state());
+    if (!s.image.background)
+        for (LayeredImage* image : {&preview.even, &preview.odd}) frame::leaveOutBackground(*image);
     s.statistics.gpuBytes = s.context.memory().used;
     s.statistics.gpuBytesHeld = s.context.memory().held;
     return preview;

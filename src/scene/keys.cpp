@@ -72,6 +72,10 @@ std::vector<Key> imageAndCameraKeys() {
         number("image.exposure", {-64.0, 64.0}, "0.0",
                "Photographic stops, applied before the tone map of PNG files. EXR files stay linear.",
                [](Draft& d, const Value& v) { d.scene.image.exposure = v.number; }),
+        other("image.background", Type::boolean, "true",
+              "Whether the picture shows the sky and the sun's disc behind the clouds. `false` leaves them out of R, G "
+              "and B: the picture is the clouds alone, premultiplied, with their alpha in A and in PNG files.",
+              [](Draft& d, const Value& v) { d.scene.image.background = v.boolean; }),
         other("camera.position", Type::vector, "(placed so that the clouds fill the picture)", "Metres.",
               [](Draft& d, const Value& v) { d.scene.camera.position = v.vector; }),
         other("camera.target", Type::vector, "(the middle of the clouds)", "Point that the camera looks at, in metres.",

@@ -1,18 +1,81 @@
 #include "scene/load.h"
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <fstream>
 #include <system_error>
+#include <vector>
 
 #include "base/error.h"
 #include "scene/read_value.h"
 #include "scene/settings.h"
+#include "scene/suggest.h"
 #include "scene/validate.h"
 
 namespace lumulus::scene {
 namespace {
 
 constexpr std::size_t maximumBytes = std::size_t{1} << 20;
+
+/// What a scene is read from, as for parseScene.
+struct Sources {
+    std::string_view toml;
+    const std::string& name;
+    std::span<const std::string> overrides;
+    std::optional<Quality> quality;
+    std::span<const std::filesystem::path> folders;
+};
+
+/// Reads a scene. `current` becomes the index of the override that is looked up, nothing before and after.
+Scene readScene(const Sources& from, std::optional<std::size_t>& current) {
+    Settings settings;
+    settings.addFile(from.toml, from.name);
+    for (std::size_t i = 0; i < from.overrides.size(); ++i) {
+        current = i;
+        settings.addOverride(from.overrides[i]);
+    }
+    current.reset();
+
+    Draft draft;
+    draft.scene.source = from.name;
+    draft.folder = std::filesystem::path(from.name).parent_path();
+    draft.allowed = from.folders;
+    draft.scene.clouds.resize(settings.entries("cloud"));
+    draft.scene.fog.media.resize(settings.entries("fog.media"));
+    draft.scene.surfaces.resize(settings.entries("surface"));
+    if (from.quality) applyQuality(draft.scene, *from.quality);
+    for (const auto& [path, setting] : settings.all()) {
+        draft.entry = setting.entry;
+        setting.key->set(draft, readValue(*setting.node, *setting.key, setting.where));
+    }
+    return finishScene(std::move(draft), settings);
+}
+
+/// The paths that make a scene in place of an unknown one in the override number `wrong`: each is tried with the
+/// override's value. Several only where they are equally near.
+std::vector<std::string> workingPaths(Sources from, std::size_t wrong) {
+    std::vector<std::string> overrides(from.overrides.begin(),
+                                       from.overrides.begin() + static_cast<std::ptrdiff_t>(wrong) + 1);
+    const std::string given = overrides.back();
+    const std::size_t equals = given.find('=');
+    std::vector<std::string> working;
+    std::size_t nearest = 0;
+    for (const LikelyPath& likely : pathsLike(given.substr(0, equals))) {
+        if (!working.empty() && likely.distance > nearest) break;
+        overrides.back() = likely.path + given.substr(equals);
+        from.overrides = overrides;
+        std::optional<std::size_t> current;
+        try {
+            readScene(from, current);
+        } catch (const InputError&) {
+            continue;
+        }
+        nearest = likely.distance;
+        working.push_back(likely.path);
+    }
+    return working;
+}
 
 }  // namespace
 
@@ -43,23 +106,20 @@ Scene loadScene(const std::filesystem::path& path, std::span<const std::string> 
 
 Scene parseScene(std::string_view toml, const std::string& sourceName, std::span<const std::string> overrides,
                  std::optional<Quality> quality, std::span<const std::filesystem::path> folders) {
-    Settings settings;
-    settings.addFile(toml, sourceName);
-    for (const std::string& text : overrides) settings.addOverride(text);
-
-    Draft draft;
-    draft.scene.source = sourceName;
-    draft.folder = std::filesystem::path(sourceName).parent_path();
-    draft.allowed = folders;
-    draft.scene.clouds.resize(settings.entries("cloud"));
-    draft.scene.fog.media.resize(settings.entries("fog.media"));
-    draft.scene.surfaces.resize(settings.entries("surface"));
-    if (quality) applyQuality(draft.scene, *quality);
-    for (const auto& [path, setting] : settings.all()) {
-        draft.entry = setting.entry;
-        setting.key->set(draft, readValue(*setting.node, *setting.key, setting.where));
+    const Sources from{toml, sourceName, overrides, quality, folders};
+    std::optional<std::size_t> current;
+    try {
+        return readScene(from, current);
+    } catch (const UnknownKey& e) {
+        if (!current) throw;
+        const std::string& given = overrides[*current];
+        if (pathsLike(given.substr(0, given.find('='))).empty()) throw;
+        const std::vector<std::string> working = workingPaths(from, *current);
+        const std::string mend = working.empty()
+                                     ? "no key like it takes this value; lumulus info --scene-format lists all"
+                                     : fmt::format("did you mean {}?", fmt::join(working, " or "));
+        throw InputError(e.what_, e.where_, mend);
     }
-    return finishScene(std::move(draft), settings);
 }
 
 }  // namespace lumulus::scene

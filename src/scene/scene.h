@@ -18,7 +18,8 @@ namespace lumulus::scene {
 struct Image {
     int width = 1280;
     int height = 720;
-    double exposure = 0.0;  ///< photographic stops, applied before the tone map of PNG files only
+    double exposure = 0.0;   ///< photographic stops, applied before the tone map of PNG files only
+    bool background = true;  ///< whether R, G, B show the sky and the sun's disc, and A is 1 where they do
 
     bool operator==(const Image&) const = default;
 };

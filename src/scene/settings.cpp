@@ -59,11 +59,16 @@ std::optional<toml::table> parseOverrideValue(std::string_view text, const std::
                              fmt::format("write {} alone", section));
         }
         if (!isSection(section)) {
-            throw InputError(fmt::format("unknown section \"{}\"", section.substr(start)), where, suggestKey(section));
+            throw UnknownKey(fmt::format("unknown section \"{}\"", section.substr(start)), where, suggestKey(section));
         }
         start = dot + 1;
     }
-    throw InputError(fmt::format("unknown key \"{}\"", name.substr(start)), where, suggestKey(name));
+    throw UnknownKey(fmt::format("unknown key \"{}\"", name.substr(start)), where, suggestKey(name));
+}
+
+/// Refuses an entry's key that does not exist: nobody is told to write it another way.
+void requireKey(const std::string& name, const std::string& where) {
+    if (findKey(name) == nullptr && !isSection(name)) unknownKey(name, where);
 }
 
 /// The index of an entry in a path of --set. A path without an index is refused with the right way to write it.
@@ -72,15 +77,18 @@ std::size_t entryIndex(const ArraySection& array, const std::string& path) {
     const std::string name(array.name), rest = path.substr(std::min(path.size(), name.size() + 1));
     const std::string where = "--set " + path;
     if (findKey(name + "." + index) != nullptr || isSection(name + "." + index)) {
+        requireKey(fmt::format("{}.{}", name, rest), where);
         throw InputError(fmt::format("which {} is meant?", array.entry), where,
                          fmt::format("write {}.0.{}", name, rest));
     }
     const bool digits = !index.empty() && std::ranges::all_of(index, [](char c) { return c >= '0' && c <= '9'; });
     if (!digits || (index.size() > 1 && index[0] == '0')) {
+        const std::string key = rest.substr(index.size());
+        requireKey(name + key, where);
         const bool named = findKey(name + ".name") != nullptr;
         throw InputError(fmt::format("the index of a {} must be a plain number{}, got \"{}\"", array.entry,
                                      named ? " or the name of one" : "", index),
-                         where, fmt::format("write {}.0{}", name, rest.substr(index.size())));
+                         where, fmt::format("write {}.0{}", name, key.empty() ? ".key=value" : key));
     }
     const std::size_t entry = index.size() > 9 ? array.most : std::stoul(index);
     if (entry >= array.most) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/error.h"
 #include "scene/arrays.h"
 #include "scene/schema.h"
 #include "scene/toml.h"
@@ -19,6 +20,14 @@ struct Setting {
     std::string where;                 ///< "scenes/x.toml:14, cloud.0.albedo" or "--set cloud.0.albedo"
     bool fromFile = true;
     std::size_t entry = 0;  ///< index in its array section
+};
+
+/// A key or section that does not exist.
+struct UnknownKey : InputError {
+    UnknownKey(const std::string& theWhat, const std::string& theWhere, const std::string& mend)
+        : InputError(theWhat, theWhere, mend), what_(theWhat), where_(theWhere) {}
+
+    std::string what_, where_;  ///< without the mend, for whoever knows a better one
 };
 
 /// All keys that the file and the overrides set, by path ("cloud.0.albedo"). Overrides replace the file's values.

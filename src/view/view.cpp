@@ -35,6 +35,32 @@ Camera makeCamera(const View& view, const Bounds& cloud) {
     return camera;
 }
 
+Camera windowCamera(const Camera& camera, const Tile& window) {
+    if (window == Tile{0, 0, camera.width, camera.height}) return camera;
+    if (camera.projection == scene::Projection::panorama)
+        throw InputError("a part of a panorama has no camera of its own", "camera.projection",
+                         "give the whole panorama, whose data window is its display window");
+    const bool perspective = camera.projection == scene::Projection::perspective;
+    const double half = perspective ? camera.tanHalfFov : 0.5 * camera.orthographicHeight;
+    const double across = half * camera.width / camera.height * (perspective ? camera.pixelAspect : 1.0);
+    // the window's middle, from that of the picture
+    const glm::dvec2 shift((2.0 * window.x + window.width) / camera.width - 1.0,
+                           1.0 - (2.0 * window.y + window.height) / camera.height);
+    const glm::dvec2 middle = shift * glm::dvec2(across, half);
+    const double share = static_cast<double>(window.height) / camera.height;
+    Camera result = camera;
+    result.width = window.width;
+    result.height = window.height;
+    if (perspective) {
+        result.tanHalfFov *= share;
+        result.middle += middle;
+    } else {
+        result.orthographicHeight *= share;
+        result.position += camera.axes * glm::dvec3(middle, 0.0);
+    }
+    return result;
+}
+
 Tile drawnTile(const View& view) {
     const Tile tile = view.tile.value_or(Tile{0, 0, view.image.width, view.image.height});
     const bool within = tile.x >= 0 && tile.y >= 0 && tile.width > 0 && tile.height > 0 &&

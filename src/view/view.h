@@ -40,6 +40,10 @@ struct View {
 /// empty frustum or one for another projection.
 Camera makeCamera(const View& view, const Bounds& cloud);
 
+/// The camera of a window of a picture, which may reach beyond it: the same rays through the same pixels, counted from
+/// the window's corner. Errors: InputError for a panorama unless the window is the whole picture.
+Camera windowCamera(const Camera& camera, const Tile& window);
+
 /// The part that is drawn: the tile, or everything. Errors: InputError for a tile that is not within the picture.
 Tile drawnTile(const View& view);
 

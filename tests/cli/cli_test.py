@@ -15,6 +15,8 @@ import threading
 import unittest
 from pathlib import Path
 
+from PIL import Image
+
 sys.path.insert(0, str(Path(__file__).parent))
 from flat_layers import read_exr  # noqa: E402
 
@@ -96,8 +98,9 @@ class Usage(CliTest):
         self.assertIn("render", self.run_lumulus("--help").stdout)
 
     def test_help_of_commands_that_are_not_there(self):
-        for arguments in (["denoise", "--help"], ["simulate", "-h"], ["--nonsense", "--help"], ["simulate", "--version"]):
+        for arguments in (["denoise", "--help"], ["simulate", "-h"], ["simulate", "--version"]):
             self.rejected(*arguments, says="unknown command")
+        self.rejected("--nonsense", "--help", says="unknown option")
         self.assertIn("--scene-format", self.run_lumulus("info", "--help").stdout)
 
     def test_version(self):
@@ -260,6 +263,33 @@ class Places(CliTest):
                 self.rejected("render", scene, "-o", place, says=str(place))
                 self.rejected("render", scene, "-o", self.out / "a.exr", "--stats", place, says=str(place))
 
+    def test_names_of_one_file(self):
+        """One output under two names, whether it is there or not."""
+        scene = self.scene("")
+        for names in (("a.png", "./a.png"), ("./out/b.png", self.out / "b.png")):
+            arguments = [part for name in names for part in ("-o", name)]
+            self.rejected("render", scene, *arguments, says="given twice")
+        self.rejected("reference", scene, "--spp", 1, "-o", "./a.exr", "--stats", "a.exr.sums", says="given twice")
+
+    def test_files_that_may_not_be_written(self):
+        path = self.folder / "kept.png"
+        path.write_text("old")
+        path.chmod(0o444)
+        self.rejected("render", self.scene("this is not read"), "-o", path, says="kept.png): allow it")
+        self.assertEqual(path.read_text(), "old")
+
+    def test_links_and_permissions(self):
+        scene = self.scene("cloud = []")
+        link, old = self.folder / "link.png", self.folder / "old.png"
+        link.symlink_to("out/new.png")
+        old.write_text("")
+        old.chmod(0o640)
+        result = self.run_lumulus("render", scene, *SMALL, "-o", link, "-o", old)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertTrue(link.is_symlink())
+        self.assertEqual(link.read_bytes(), old.read_bytes())
+        self.assertEqual(old.stat().st_mode & 0o777, 0o640)
+
     def test_devices_stay_devices(self):
         self.rejected("render", self.scene(""), "-o", "/dev/full", says="/dev/full")
         self.assertTrue(Path("/dev/full").is_char_device())
@@ -296,7 +326,7 @@ class Rendering(CliTest):
         result = self.run_lumulus("render", scene, "-o", exr, "-o", png, "--stats", stats, "--seed", 7, *SMALL)
         self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
         _, _, layers, attributes = read_exr(exr)
-        for name in ("R", "G", "B", "A", "cloud.R", "cloud.G", "cloud.B", "depth.Z", "depth.front", "transmittance.R",
+        for name in ("R", "G", "B", "A", "cloud.R", "cloud.G", "cloud.B", "cloud.A", "depth.Z", "depth.front", "transmittance.R",
                      "transmittance.G", "transmittance.B"):
             self.assertIn(name, layers)
         self.assertEqual(attributes["scene"], scene)
@@ -322,6 +352,30 @@ class Rendering(CliTest):
         self.assertEqual(first, again)
         self.assertNotEqual(first["R"], other["R"])
 
+    def test_same_seed_same_bytes(self):
+        scene = self.vdb_scene(self.fixtures / "ball.vdb")
+        for command in (("render", *SMALL), ("reference", *SMALL, "--spp", 1)):
+            files = []
+            for _ in range(2):
+                path = self.folder / "same.exr"
+                result = self.run_lumulus(command[0], scene, "-o", path, *command[1:])
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                files.append(path.read_bytes())
+            self.assertEqual(files[0], files[1], command[0])
+
+    def test_background_left_out(self):
+        scene = self.vdb_scene(self.fixtures / "ball.vdb")
+        with_sky, _ = self.rendered(scene)
+        self.assertEqual(set(with_sky["A"]), {1.0})
+        alone, _ = self.rendered(scene, "--set", "image.background=false", "-o", self.out / "a.png")
+        for name in ("R", "G", "B", "A"):
+            self.assertEqual(alone[name], with_sky[f"cloud.{name}"])
+        picture = Image.open(self.out / "a.png")
+        self.assertEqual(picture.mode, "RGBA")
+        alphas = list(picture.getchannel("A").getdata())
+        self.assertEqual(alphas, [math.floor(255 * alpha + 0.5) for alpha in alone["A"]])
+        self.assertEqual((min(alphas), picture.getpixel((0, 0))), (0, (0, 0, 0, 0)))
+
     def test_no_cloud_is_sky(self):
         layers, _ = self.rendered(self.scene("cloud = []\n[sky]\nradiance = [0.5, 1, 2]\n"),
                                   "--set", "sun.irradiance=0")
@@ -331,16 +385,16 @@ class Rendering(CliTest):
     def test_zero_density_is_sky_and_a_warning(self):
         layers, result = self.rendered(self.vdb_scene(self.fixtures / "zeros.vdb"), "--set", "sky.radiance=1")
         self.assertRegex(result.stderr, r"^lumulus: warning: ")
-        self.assertTrue(all(value == 0 for value in layers["A"]))
+        self.assertTrue(all(value == 0 for value in layers["cloud.A"]))
 
     def test_one_voxel(self):
         layers, _ = self.rendered(self.vdb_scene(self.fixtures / "one-voxel.vdb"))
-        self.assertGreater(max(layers["A"]), 0.0)
+        self.assertGreater(max(layers["cloud.A"]), 0.0)
 
     def test_far_from_the_origin(self):
         near, _ = self.rendered(self.vdb_scene(self.fixtures / "ball.vdb"))
         far, _ = self.rendered(self.vdb_scene(self.fixtures / "far.vdb"))
-        for name in ("R", "G", "B", "A"):
+        for name in ("R", "G", "B", "cloud.A"):
             mean = sum(near[name]) / len(near[name])
             rms = math.sqrt(sum((a - b) ** 2 for a, b in zip(near[name], far[name])) / len(near[name]))
             self.assertLess(rms, 1e-3 * mean, name)

@@ -61,7 +61,7 @@ class Reference(CliTest):
         width, height, layers, attributes = self.reference("--spp", 4, "--seed", 7, "--majorant", "local")
         self.assertEqual((width, height), (32, 24))
         colours = {f"{name}{c}" for name in ("", "cloud.", "transmittance.", "variance.") for c in "RGB"}
-        self.assertEqual(set(layers), colours | {"A", "depth.Z", "depth.front"})
+        self.assertEqual(set(layers), colours | {"A", "cloud.A", "depth.Z", "depth.front"})
         for name, values in layers.items():
             self.assertTrue(all(map(math.isfinite, values)), name)
         for key, value in {"seed": "7", "samples": "4", "majorant": "local", "device": "CPU", "lost": "0"}.items():
@@ -129,7 +129,7 @@ absorption = 0.05
         for channel, emission in zip("RGB", (1, 2, 3)):
             mean, error = image[channel][27], math.sqrt(image[f"variance.{channel}"][27])
             self.assertAlmostEqual(mean, emission * math.exp(-0.5), delta=4.0 * error + 0.05)
-        self.assertEqual(set(image["A"]), {1.0})
+        self.assertEqual(set(image["cloud.A"]), {1.0})
         self.assertEqual(set(image["transmittance.R"]), {0.0})
         self.assertTrue(all(10.0 <= depth < 12.0 for depth in image["depth.Z"]))
         result = self.run_lumulus("reference", self.path, "-o", self.picture, "--resume", "--spp", 300,
@@ -145,7 +145,6 @@ absorption = 0.05
         attributes = self.reference("--seconds", 0.3)[3]
         self.assertGreater(time.monotonic() - start, 0.3)
         self.assertGreaterEqual(int(attributes["samples"]), 1)
-        self.assertGreaterEqual(float(attributes["seconds"]), 0.3)
 
     def test_bad_usage(self):
         for more, says in (((), "either --spp or --seconds"), (("--spp", 2, "--seconds", 1), "either"),

@@ -69,8 +69,8 @@ HostLayers split(const LayeredImage& image, const glm::vec3& sky) {
     const std::vector<glm::vec4> black(count, glm::vec4(0.0F));
     HostLayers layers{{black, image.layers.at("depth.Z")}, {black, far}, {black, far}};
     for (std::size_t i = 0; i < count; ++i) {
-        layers.cloud.radiance[i].w = image.layers.at("A")[i];
-        layers.clouded = layers.clouded || image.layers.at("A")[i] > 0.0F;
+        layers.cloud.radiance[i].w = image.layers.at("cloud.A")[i];
+        layers.clouded = layers.clouded || image.layers.at("cloud.A")[i] > 0.0F;
         for (int c = 0; c < 3; ++c) {
             const std::string name = colours[static_cast<std::size_t>(c)];
             const float light = image.layers.at("cloud." + name)[i];
@@ -109,7 +109,7 @@ class FogFrameTest : public test::VulkanTest {
         const std::vector<glm::vec4> shadow = layers.clouded ? fog.apply(layers.shadow, camera) : none;
         const std::vector<glm::vec4> bright = layers.lit ? fog.apply(layers.bright, camera) : none;
         for (std::size_t i = 0; i < none.size(); ++i) {
-            const glm::vec3 open = openSkyOf(scene, camera, sky, i, image.layers.at("A")[i]);
+            const glm::vec3 open = openSkyOf(scene, camera, sky, i, image.layers.at("cloud.A")[i]);
             for (int c = 0; c < 3; ++c) {
                 const std::string name = colours[static_cast<std::size_t>(c)];
                 const float behind = std::max(open[c] - shadow[i][c], 0.0F) + bright[i][c];

@@ -137,7 +137,7 @@ TEST_P(EachMode, BandsOfRows) {
     scene.preparation.maxLeaves = 4000;
     const Frame frame = test::render(scene);
     expectFinite(frame.image);
-    const auto& alpha = frame.image.layers.at("A");
+    const auto& alpha = frame.image.layers.at("cloud.A");
     // the ball is as high above the middle as below it
     double upper = 0.0, lower = 0.0;
     for (std::size_t i = 0; i < alpha.size(); ++i)
@@ -173,7 +173,7 @@ TEST(EmptyScene, RecordsNothing) {
     const Frame frame = test::render(scene);
     EXPECT_THAT(frame.passes(), IsEmpty());
     EXPECT_EQ(frame.statistics.photons, 0U);
-    EXPECT_THAT(frame.image.layers.at("A"), testing::Each(0.0F));
+    EXPECT_THAT(frame.image.layers.at("cloud.A"), testing::Each(0.0F));
     expectFinite(frame.image);
 }
 
@@ -185,7 +185,7 @@ TEST(EmptyScene, VolumeOfZerosRecordsNothing) {
     const Frame frame = test::render(scene);
     EXPECT_THAT(frame.passes(), IsEmpty());
     EXPECT_THAT(frame.statistics.warnings, Not(IsEmpty()));
-    EXPECT_THAT(frame.image.layers.at("A"), testing::Each(0.0F));
+    EXPECT_THAT(frame.image.layers.at("cloud.A"), testing::Each(0.0F));
     expectFinite(frame.image);
 }
 
@@ -194,7 +194,7 @@ TEST(EmptyScene, NoExtinctionRecordsNothing) {
     scene.clouds[0].densityScale = 0.0;
     const Frame frame = test::render(scene);
     EXPECT_THAT(frame.passes(), IsEmpty());
-    EXPECT_THAT(frame.image.layers.at("A"), testing::Each(0.0F));
+    EXPECT_THAT(frame.image.layers.at("cloud.A"), testing::Each(0.0F));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "render/renderer.h"
 #include "support/small_scene.h"
@@ -82,6 +83,33 @@ TEST_P(Picture, WhiteFurnaceIsInvisible) {
             EXPECT_LT(std::abs(sum) / static_cast<double>(frame.image.pixels()), 0.005);
         }
     }
+}
+
+/// A compositor puts R, G, B over its own sky by A. With the background A is 1; without it the picture is the cloud's
+/// own layers, and over the sky it is the picture again.
+TEST_P(Picture, CompositesByItsAlpha) {
+    scene.sun.irradiance = dvec3(0.0);    // its disc is no part of the sky
+    scene.clouds[0].albedo = dvec3(1.0);  // what is seen through it has no colour
+    const Frame with = test::render(scene);
+    scene.image.background = false;
+    const Frame without = test::render(scene);
+    const auto& layers = with.image.layers;
+    const char* names[3] = {"R", "G", "B"};
+    for (std::size_t i = 0; i < with.image.pixels(); ++i) {
+        ASSERT_EQ(layers.at("A")[i], 1.0F);
+        ASSERT_EQ(without.image.layers.at("A")[i], layers.at("cloud.A")[i]);
+        double over = 0.0, whole = 0.0;  // of the mean of the colours, which A belongs to
+        for (int c = 0; c < 3; ++c) {
+            const float alone = without.image.layers.at(names[c])[i];
+            ASSERT_EQ(alone, layers.at(std::string("cloud.") + names[c])[i]);
+            over += static_cast<double>(alone) +
+                    (1.0 - static_cast<double>(layers.at("cloud.A")[i])) * scene.sky.radiance[c];
+            whole += static_cast<double>(layers.at(names[c])[i]);
+        }
+        ASSERT_NEAR(over, whole, 1e-4 * whole) << i;
+    }
+    EXPECT_EQ(layers.at("cloud.A").front(), 0.0F);
+    EXPECT_GT(layers.at("cloud.A")[layers.at("cloud.A").size() / 2 + 16], 0.1F);
 }
 
 /// Light is linear: twice the light makes twice the picture, to the bits that a power of two leaves alone.

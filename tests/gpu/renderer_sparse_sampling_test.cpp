@@ -62,7 +62,7 @@ void expectWithinTolerance(const LayeredImage& some, const LayeredImage& every, 
             ASSERT_NEAR(value(some, "cloud.G", i), value(every, "cloud.G", i),
                         0.5 * tolerance * brightest(every, "cloud.G", x, y))
                 << x << " " << y;
-            for (const char* layer : {"transmittance.B", "A"})
+            for (const char* layer : {"transmittance.B", "cloud.A"})
                 ASSERT_NEAR(value(some, layer, i), value(every, layer, i), 0.25 * tolerance)
                     << layer << " " << x << " " << y;
         }
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Modes, SparseSampling, testing::Values(scene::DrawMode:
 TEST_P(SparseSampling, InterpolatedIsTheSamePicture) {
     const scene::Scene scene = closeScene(GetParam());
     const LayeredImage every = drawn(scene, 0.0).image, some = drawn(scene, 0.2).image;
-    for (const char* layer : {"R", "cloud.G", "transmittance.B", "A"}) {
+    for (const char* layer : {"R", "cloud.G", "transmittance.B", "cloud.A"}) {
         const double found = difference(some, every, layer);
         EXPECT_GT(found, 0.0) << layer;  // something was interpolated
         EXPECT_LT(found, 0.01) << layer;

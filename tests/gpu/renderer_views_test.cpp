@@ -151,7 +151,7 @@ TEST_P(Views, CoarseSunIsMadeWhole) {
         const double difference = relativeDifference(image, whole, "G");
         EXPECT_GT(difference, 0.0);
         EXPECT_LT(difference, 0.5);
-        EXPECT_EQ(image.layers.at("A"), whole.layers.at("A"));
+        EXPECT_EQ(image.layers.at("cloud.A"), whole.layers.at("cloud.A"));
     };
     coarse();
     int steps = 1;
@@ -207,7 +207,7 @@ TEST_P(Views, ChangedExtinctionAgesIn) {
         // the noise of the ratio is 2.4 % (5.3 % over ten seeds of a fifth of the photons); with the wrong masses they
         // would be off by a factor of up to 2
         EXPECT_NEAR(sumOf(image, "cloud.G") / sumOf(settled, "cloud.G"), 1.0, 0.1) << fresh;
-        EXPECT_LT(relativeDifference(image, settled, "A"), 1e-5) << fresh;
+        EXPECT_LT(relativeDifference(image, settled, "cloud.A"), 1e-5) << fresh;
         ring->traceGeneration();
     }
     EXPECT_THROW(ring->setExtinction(0.0), InputError);
@@ -229,7 +229,7 @@ TEST_P(Views, OffsetMovesTheCloud) {
 TEST_P(Views, NothingIsDrawnWhereNoCloudIs) {
     const auto renderer = ringRenderer(scene, 2);
     const LayeredImage away = renderer->draw(viewFrom(*renderer, dvec3(0.0, 100.0, 600.0), dvec3(0.0, 100.0, 1200.0)));
-    EXPECT_EQ(sumOf(away, "A"), 0.0);
+    EXPECT_EQ(sumOf(away, "cloud.A"), 0.0);
     EXPECT_NEAR(sumOf(away, "B"), scene.sky.radiance.b * static_cast<double>(away.pixels()), 1e-3);
     for (const PassTime& pass : renderer->statistics().passes) {
         EXPECT_NE(pass.name, "march");
@@ -251,7 +251,7 @@ TEST_P(Views, TheSkyGoesOnBesideTheCloud) {
     const LayeredImage both = renderer->draw(view), sky = alone->draw(view);
     std::size_t bright = 0, covered = 0;
     for (std::size_t i = 0; i < both.pixels(); ++i) {
-        if (both.layers.at("A")[i] > 0.0F) {
+        if (both.layers.at("cloud.A")[i] > 0.0F) {
             ++covered;
             continue;
         }
@@ -282,15 +282,15 @@ TEST_P(Views, CamerasOfADomeAgreeAtTheirEdge) {
     const auto step = [&](const LayeredImage& a, int columnA, const LayeredImage& b, int columnB) {
         double sum = 0.0;
         for (int y = 0; y < size; ++y)
-            sum += std::abs(static_cast<double>(a.layers.at("A")[static_cast<std::size_t>(y * size + columnA)] -
-                                                b.layers.at("A")[static_cast<std::size_t>(y * size + columnB)])) +
+            sum += std::abs(static_cast<double>(a.layers.at("cloud.A")[static_cast<std::size_t>(y * size + columnA)] -
+                                                b.layers.at("cloud.A")[static_cast<std::size_t>(y * size + columnB)])) +
                    std::abs(static_cast<double>(a.layers.at("G")[static_cast<std::size_t>(y * size + columnA)] -
                                                 b.layers.at("G")[static_cast<std::size_t>(y * size + columnB)]));
         return sum / size;
     };
     const double inside = 0.5 * (step(north, 0, north, 1) + step(west, size - 1, west, size - 2));
     EXPECT_LT(step(north, 0, west, size - 1), 1.5 * inside + 1e-3);
-    EXPECT_GT(north.layers.at("A")[size / 2 * size], 0.1F);  // the edge runs through the cloud
+    EXPECT_GT(north.layers.at("cloud.A")[size / 2 * size], 0.1F);  // the edge runs through the cloud
 }
 
 }  // namespace

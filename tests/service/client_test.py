@@ -19,15 +19,15 @@ int main(int, char** arguments) {
         query.width = 40;
         query.height = 30;
         query.position = {300.0, 100.0, 0.0};
-        query.products = {"color", "depth"};
+        query.products = {"cloud", "depth"};
         const lumulus::Frame frame = client.frame(query);
-        const std::vector<float> color = frame.values(0, "color"), depth = frame.values(0, "depth");
+        const std::vector<float> cloud = frame.values(0, "cloud"), depth = frame.values(0, "depth");
         const std::uint64_t stream = client.startStream(query);
         for (int i = 0; i < 3; ++i)
             if (client.nextFrame(stream).views.at(0).width != 40) return 3;
         client.stopStream(stream);
         client.upload(arguments[2]);
-        std::printf("%d %zu %zu %.3f\n", frame.generations, color.size(), depth.size(), color[4 * (15 * 40 + 20) + 3]);
+        std::printf("%d %zu %zu %.3f\n", frame.generations, cloud.size(), depth.size(), cloud[4 * (15 * 40 + 20) + 3]);
         query.width = -1;
         client.frame(query);
     } catch (const lumulus::ClientError& error) {
@@ -54,8 +54,8 @@ class InstalledClient(unittest.TestCase):
                             library, "-lImath-3_1", "-lcrypto", "-o", program], check=True)
             result = subprocess.run([program, server.tcp, source], capture_output=True, text=True, timeout=100)
         self.assertEqual(result.returncode, 0, result)
-        generations, color, depth, alpha = result.stdout.split()[:4]
-        self.assertEqual((generations, color, depth), ("4", "4800", "1200"))
+        generations, cloud, depth, alpha = result.stdout.split()[:4]
+        self.assertEqual((generations, cloud, depth), ("4", "4800", "1200"))
         self.assertGreater(float(alpha), 0.5)
         self.assertEqual(result.stdout.split()[4], "bad_request")
 

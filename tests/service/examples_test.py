@@ -54,7 +54,7 @@ class Examples(ServiceTest):
 
     def test_save_sequence(self):
         self.run_example("save_sequence.py", self.folder, "--frames", "3", "--wind", "40", "0", "0", *SMALL)
-        alphas = [layers_of(os.path.join(self.folder, name))["A"] for name in sorted(os.listdir(self.folder))]
+        alphas = [layers_of(os.path.join(self.folder, name))["cloud.A"] for name in sorted(os.listdir(self.folder))]
         self.assertEqual(len(alphas), 3)
         # the middle of what covers the sky drifts one way
         columns = [(alpha.sum(0) * numpy.arange(alpha.shape[1])).sum() / alpha.sum() for alpha in alphas]

@@ -19,8 +19,8 @@ LayeredImage picture(int width, int height, float (*value)(int, int)) {
     LayeredImage image;
     image.width = width;
     image.height = height;
-    for (const char* name : {"R", "G", "B", "A", "cloud.R", "cloud.G", "cloud.B", "transmittance.R", "transmittance.G",
-                             "transmittance.B", "depth.Z", "depth.front"}) {
+    for (const char* name : {"R", "G", "B", "A", "cloud.R", "cloud.G", "cloud.B", "cloud.A", "transmittance.R",
+                             "transmittance.G", "transmittance.B", "depth.Z", "depth.front"}) {
         std::vector<float>& layer = image.layer(name);
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) layer[static_cast<std::size_t>(y * width + x)] = value(x, y);
@@ -106,7 +106,7 @@ TEST(Noise, IsTheVarianceOfTheLaterMean) {
     // 30 000 samples of a chi-square: 0.8 % standard error
     EXPECT_NEAR(nestedNoise(four, 4, sixteen, 16) / expected, 1.0, 0.04);
     EXPECT_EQ(nestedNoise(sixteen, 4, sixteen, 16), 0.0);
-    for (float& alpha : sixteen.layers["A"]) alpha = 0.0F;
+    for (float& alpha : sixteen.layers["cloud.A"]) alpha = 0.0F;
     EXPECT_EQ(nestedNoise(four, 4, sixteen, 16), 0.0);
 }
 

@@ -17,7 +17,7 @@ from lumulus_client import ServiceError
 
 ALL = ["color", "cloud", "transmittance", "depth", "front"]
 LARGE_SCENE = '[[cloud]]\nprocedural = "cumulus"\nresolution = 480\n'  # takes seconds to make
-LAYERS = {"color": ["R", "G", "B", "A"], "cloud": ["cloud.R", "cloud.G", "cloud.B"],
+LAYERS = {"color": ["R", "G", "B", "A"], "cloud": ["cloud.R", "cloud.G", "cloud.B", "cloud.A"],
           "transmittance": ["transmittance.R", "transmittance.G", "transmittance.B"], "depth": ["depth.Z"],
           "front": ["depth.front"]}
 
@@ -260,6 +260,27 @@ class Behaviour(ServiceTest):
                                          f"127.0.0.1:{taken.getsockname()[1]}"], capture_output=True, text=True)
             self.assertEqual(result.returncode, 1)
             self.assertEqual(result.stderr.count("\n"), 1)
+
+    def test_fetch_names_the_file_of_the_user(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene, vdb = os.path.join(folder, "mine.toml"), os.path.join(folder, "mine.vdb")
+            for path, text in ((scene, "[image]\nwidht = 3\n"), (vdb, "no volume")):
+                with open(path, "w") as file:
+                    file.write(text)
+
+            def refused(*words):
+                result = subprocess.run([LUMULUS, "fetch", "--address", self.server.tcp, "-o",
+                                         os.path.join(folder, "a.png"), *words], capture_output=True, text=True)
+                self.assertEqual((result.returncode, result.stderr.count("\n")), (2, 1), result.stderr)
+                self.assertNotIn("inline", result.stderr)
+                return result.stderr
+
+            self.assertIn(f'unknown key "widht" ({scene}:2, image.widht): did you mean "width"?',
+                          refused("--scene", scene))
+            self.assertIn("(missing.toml)", refused("--scene", "missing.toml"))
+            self.assertIn("missing.vdb", refused("--vdb", os.path.join(folder, "missing.vdb")))
+            self.assertIn("given twice", refused("--stats", os.path.join(folder, "./a.png")))
+            self.assertEqual(sorted(os.listdir(folder)), ["mine.toml", "mine.vdb"])
 
 
 class Ending(unittest.TestCase):

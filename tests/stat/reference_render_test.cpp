@@ -152,6 +152,26 @@ TEST(Reference, AStoppedPassLeavesTheFilm) {
     EXPECT_EQ(renderer.film(), before);
 }
 
+/// The same paths with and without the background: what is left out is the sky behind, and its variance.
+TEST(Reference, LeavesTheBackgroundOut) {
+    scene::Scene scene = ballScene();
+    const LayeredImage with = rendered(scene, 3, 4);
+    scene.image.background = false;
+    const LayeredImage without = rendered(scene, 3, 4);
+    EXPECT_EQ(with.layers.at("A"), std::vector<float>(with.pixels(), 1.0F));
+    EXPECT_EQ(without.layers.at("A"), with.layers.at("cloud.A"));
+    for (const std::string channel : {"R", "G", "B"})
+        EXPECT_EQ(without.layers.at(channel), with.layers.at("cloud." + channel));
+    EXPECT_EQ(without.layers.at("R")[0], 0.0F);
+    // an absorbing ball scatters nothing: only the sky behind it varied
+    scene.clouds[0].albedo = dvec3(0.0);
+    EXPECT_EQ(rendered(scene, 3, 4).layers.at("variance.G"), std::vector<float>(with.pixels(), 0.0F));
+    const vdb::Volume volume = ball();
+    const Renderer one(scene, {volume}, Majorant::local, 3);
+    scene.image.background = true;
+    EXPECT_NE(one.fingerprint(), Renderer(scene, {volume}, Majorant::local, 3).fingerprint());
+}
+
 TEST(Reference, LayersAreWhatTheySay) {
     scene::Scene scene = ballScene();
     scene.sun.irradiance = dvec3(0.0);
@@ -161,7 +181,7 @@ TEST(Reference, LayersAreWhatTheySay) {
         return static_cast<double>(image.layers.at(layer)[static_cast<std::size_t>(y * image.width + x)]);
     };
     // a corner sees nothing but sky
-    EXPECT_EQ(value("A", 0, 0), 0.0);
+    EXPECT_EQ(value("cloud.A", 0, 0), 0.0);
     EXPECT_EQ(value("transmittance.G", 0, 0), 1.0);
     EXPECT_EQ(value("depth.Z", 0, 0), 1e10);
     EXPECT_EQ(value("depth.front", 0, 0), 1e10F);
@@ -172,7 +192,7 @@ TEST(Reference, LayersAreWhatTheySay) {
     const double sky = scene.sky.radiance.z;
     EXPECT_NEAR(value("B", 10, 10), sky, 1e-5 * sky);
     EXPECT_NEAR(value("transmittance.R", 10, 10), std::exp(-6.0), 0.01);
-    EXPECT_NEAR(value("A", 10, 10) + value("transmittance.R", 10, 10), 1.0, 1e-6);
+    EXPECT_NEAR(value("cloud.A", 10, 10) + value("transmittance.R", 10, 10), 1.0, 1e-6);
     EXPECT_GT(value("cloud.B", 10, 10), 0.8 * sky);
     // depth: about one mean free path behind the surface
     const vdb::Volume volume = ball();
@@ -249,8 +269,8 @@ TEST(Reference, LayersOfFogAndSurfaces) {
     EXPECT_EQ(value("depth.front", 3, 2), 1e10F);
     EXPECT_NEAR(value("transmittance.R", 3, 2), std::exp(-0.5), 1e-6);
     EXPECT_NEAR(value("transmittance.B", 3, 2), std::exp(-1.5), 1e-6);
-    EXPECT_NEAR(value("A", 3, 2), 1.0 - (std::exp(-0.5) + std::exp(-1.0) + std::exp(-1.5)) / 3.0, 1e-6);
-    EXPECT_EQ(value("A", 10, 17), 1.0);
+    EXPECT_NEAR(value("cloud.A", 3, 2), 1.0 - (std::exp(-0.5) + std::exp(-1.0) + std::exp(-1.5)) / 3.0, 1e-6);
+    EXPECT_EQ(value("cloud.A", 10, 17), 1.0);
     EXPECT_EQ(value("transmittance.G", 10, 17), 0.0);
     const Camera camera = makeCamera(scene.camera, scene.image, Bounds{});
     const double floor = -10.0 / camera.ray(10.5, 17.5).direction.y;

@@ -66,6 +66,60 @@ TEST(AtomicFile, FollowsLinks) {
     EXPECT_EQ(readAll(folder / "target"), "new");
 }
 
+TEST(AtomicFile, MakesTheTargetOfADanglingLink) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "store");
+    fs::create_symlink("store/new", folder / "relative");
+    fs::create_symlink(folder / "relative", folder / "chain");
+    checkWritable(folder / "chain");
+    EXPECT_FALSE(fs::exists(folder / "store/new"));
+    writeFile(folder / "chain", bytesOf("text"));
+    EXPECT_TRUE(fs::is_symlink(folder / "chain"));
+    EXPECT_TRUE(fs::is_symlink(folder / "relative"));
+    EXPECT_EQ(readAll(folder / "store/new"), "text");
+    fs::create_symlink("loop", folder / "loop");
+    EXPECT_THROW(writeFile(folder / "loop", bytesOf("text")), InputError);
+    fs::create_symlink("missing/new", folder / "nowhere");
+    EXPECT_THROW(checkWritable(folder / "nowhere"), InputError);
+}
+
+TEST(AtomicFile, KeepsPermissions) {
+    const TemporaryFolder folder;
+    for (const unsigned mode : {0640U, 0600U, 0666U, 0755U}) {
+        test::writeAll(folder / "a", "old");
+        fs::permissions(folder / "a", fs::perms(mode));
+        writeFile(folder / "a", bytesOf("new"));
+        EXPECT_EQ(static_cast<unsigned>(fs::status(folder / "a").permissions()), mode);
+        EXPECT_EQ(readAll(folder / "a"), "new");
+    }
+}
+
+TEST(AtomicFile, RefusesFilesThatMayNotBeWritten) {
+    const TemporaryFolder folder;
+    test::writeAll(folder / "a", "old");
+    fs::create_symlink("a", folder / "link");
+    fs::permissions(folder / "a", fs::perms(0444));
+    for (const char* name : {"a", "link"}) {
+        EXPECT_THROW(checkWritable(folder / name), InputError);
+        EXPECT_THROW(writeFile(folder / name, bytesOf("new")), InputError);
+    }
+    EXPECT_EQ(readAll(folder / "a"), "old");
+}
+
+TEST(AtomicFile, NamesOfOneFileAreEqual) {
+    const TemporaryFolder folder;
+    fs::create_symlink("a", folder / "link");
+    fs::create_symlink(".", folder / "here");
+    const fs::path file = outputFile(folder / "a");
+    EXPECT_EQ(outputFile(folder / "./a"), file);
+    EXPECT_EQ(outputFile(folder / "link"), file);
+    EXPECT_EQ(outputFile(folder / "here/a"), file);
+    EXPECT_NE(outputFile(folder / "b"), file);
+    // names from the working folder, of a file that is not there yet
+    EXPECT_EQ(outputFile("no-such-file"), outputFile("./no-such-file"));
+    EXPECT_EQ(outputFile("no-such-file"), outputFile(fs::current_path() / "no-such-file"));
+}
+
 TEST(AtomicFile, BadPlacesAreBadInput) {
     const TemporaryFolder folder;
     test::writeAll(folder / "file", "");

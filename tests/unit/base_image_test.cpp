@@ -3,6 +3,7 @@
 #include <ImfHeader.h>
 #include <ImfOutputFile.h>
 #include <ImfTiledOutputFile.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <half.h>
 #include <png.h>
@@ -54,6 +55,24 @@ TEST(Exr, RoundTripIsExact) {
     EXPECT_EQ(back.layers, image.layers);
     EXPECT_TRUE(std::signbit(back.layers.at("R")[2]));
     EXPECT_EQ(back.attributes, image.attributes);
+}
+
+TEST(Exr, KeepsItsWindows) {
+    const TemporaryFolder folder;
+    const LayeredImage image = sampleImage(8, 5);
+    const ExrWindows windows{{0, 0, 16, 9}, {-3, 6, 8, 5}};
+    writeExr(folder / "a.exr", image, windows);
+    const std::vector<ExrPart> parts = listExrParts(folder / "a.exr");
+    ASSERT_EQ(parts.size(), 1U);
+    EXPECT_EQ(parts[0].windows, windows);
+    EXPECT_THAT(parts[0].channels, testing::Contains("depth.front"));
+    const std::vector<std::string> some{"cloud.R", "A"};
+    const LayeredImage back = readExrChannels(folder / "a.exr", 0, some);
+    EXPECT_EQ(back.layers.size(), 2U);
+    for (const std::string& name : some) EXPECT_EQ(back.layers.at(name), image.layers.at(name));
+    writeExr(folder / "b.exr", image);
+    const ExrWindow whole{0, 0, 8, 5};
+    EXPECT_EQ(listExrParts(folder / "b.exr").at(0).windows, (ExrWindows{whole, whole}));
 }
 
 TEST(Exr, SameImageSameBytes) {
@@ -161,6 +180,21 @@ TEST(Png, ReadsBack) {
     EXPECT_EQ(back, rgb);
 }
 
+TEST(Png, ReadsBackWithAlpha) {
+    const TemporaryFolder folder;
+    std::vector<std::uint8_t> rgba(7 * 5 * 4);
+    for (std::size_t i = 0; i < rgba.size(); ++i) rgba[i] = static_cast<std::uint8_t>(i * 37);
+    writePng(folder / "a.png", 7, 5, rgba);
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    ASSERT_NE(png_image_begin_read_from_file(&image, (folder / "a.png").c_str()), 0);
+    EXPECT_EQ(image.format & PNG_FORMAT_FLAG_ALPHA, PNG_FORMAT_FLAG_ALPHA);
+    image.format = PNG_FORMAT_RGBA;
+    std::vector<std::uint8_t> back(PNG_IMAGE_SIZE(image));
+    ASSERT_NE(png_image_finish_read(&image, nullptr, back.data(), 0, nullptr), 0);
+    EXPECT_EQ(back, rgba);
+}
+
 LayeredImage greyImage(const std::vector<float>& values) {
     LayeredImage image;
     image.width = static_cast<int>(values.size());
@@ -195,6 +229,30 @@ TEST(ToneMap, KnownGrey) {
     }
     // the dither keeps the mean: standard error of a fraction's mean over 4096 pixels is below 0.5/64
     EXPECT_NEAR(sum / static_cast<double>(rgb.size()), expected, 4.0 * 0.5 / 64.0);
+}
+
+/// Colours that are premultiplied by alpha look as the opaque ones, whatever the alpha.
+TEST(ToneMap, AlphaIsTakenOutOfTheColours) {
+    const std::vector<float> alphas{1.0F, 0.5F, 0.25F, 0.0F, -1.0F, 2.0F, std::numeric_limits<float>::quiet_NaN()};
+    LayeredImage image = greyImage(std::vector<float>(alphas.size(), 0.18F));
+    const std::vector<std::uint8_t> opaque = toneMap(image, 0.5);
+    for (const char* name : {"R", "G", "B"})
+        for (std::size_t i = 0; i < 3; ++i) image.layers[name][i] *= alphas[i];
+    image.layer("A") = alphas;
+    const std::vector<std::uint8_t> rgba = toneMapWithAlpha(image, 0.5);
+    ASSERT_EQ(rgba.size(), 4 * alphas.size());
+    const int expected[7] = {255, 128, 64, 0, 0, 255, 0};
+    for (std::size_t i = 0; i < alphas.size(); ++i) {
+        EXPECT_EQ(rgba[4 * i + 3], expected[i]) << i;
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (i < 3) {
+                EXPECT_EQ(rgba[4 * i + c], opaque[3 * i + c]) << i;
+            }
+            if (expected[i] == 0) {
+                EXPECT_EQ(rgba[4 * i + c], 0) << i;
+            }
+        }
+    }
 }
 
 TEST(ToneMap, ExposureIsInStops) {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "view/view.h"
 
 namespace lumulus {
 namespace {
@@ -33,6 +34,30 @@ TEST(Camera, PerspectiveRaysAreThoseOfAPinhole) {
     EXPECT_THAT(camera.ray(100.0, 0.0).direction, IsNear(dvec3(0, 1, -1) / std::sqrt(2.0), 1e-15));
     EXPECT_THAT(camera.ray(200.0, 50.0).direction, IsNear(dvec3(2, 0, -1) / std::sqrt(5.0), 1e-15));
     EXPECT_THAT(camera.ray(0.0, 100.0).direction, IsNear(dvec3(-2, -1, -1) / std::sqrt(6.0), 1e-15));
+}
+
+/// A window sees what the picture sees through the same pixels, also beyond the picture (overscan).
+TEST(Camera, WindowsHaveTheRaysOfThePicture) {
+    for (const auto projection : {scene::Projection::perspective, scene::Projection::orthographic}) {
+        scene::Camera settings = lookingAlongMinusZ();
+        settings.projection = projection;
+        const Camera whole = makeCamera(settings, {160, 90, 0.0}, {});
+        for (const Tile& window : {Tile{40, 20, 80, 45}, Tile{-10, -6, 180, 100}, Tile{159, 0, 1, 90}}) {
+            const Camera part = windowCamera(whole, window);
+            EXPECT_EQ(part.width, window.width);
+            for (const double px : {0.5, 0.25 * window.width, window.width - 0.5})
+                for (const double py : {0.5, 0.75 * window.height}) {
+                    const Ray expected = whole.ray(window.x + px, window.y + py), found = part.ray(px, py);
+                    EXPECT_THAT(found.direction, IsNear(expected.direction, 1e-14));
+                    EXPECT_THAT(found.origin, IsNear(expected.origin, 1e-12));
+                }
+        }
+    }
+    scene::Camera settings = lookingAlongMinusZ();
+    settings.projection = scene::Projection::panorama;
+    const Camera sphere = makeCamera(settings, {160, 80, 0.0}, {});
+    EXPECT_EQ(windowCamera(sphere, {0, 0, 160, 80}).width, 160);
+    EXPECT_THROW(windowCamera(sphere, {0, 0, 80, 80}), InputError);
 }
 
 TEST(Camera, OrthographicRaysAreParallelAndFrameTheTarget) {

@@ -7,5 +7,7 @@ foreach(class Usage Scene Volumes Places Rendering)
   set_tests_properties(cli.${class} PROPERTIES TIMEOUT 300)
 endforeach()
 
-lumulus_test(cli_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/cli_stats_test.cpp LINK lumulus_cli lumulus_scene lumulus_vdb
-                                                                                nlohmann_json::nlohmann_json)
+lumulus_test(cli_test
+  SOURCES ${CMAKE_CURRENT_LIST_DIR}/cli_advice_test.cpp ${CMAKE_CURRENT_LIST_DIR}/cli_layers_test.cpp
+          ${CMAKE_CURRENT_LIST_DIR}/cli_stats_test.cpp
+  LINK lumulus_cli lumulus_base lumulus_scene lumulus_vdb CLI11::CLI11 nlohmann_json::nlohmann_json)

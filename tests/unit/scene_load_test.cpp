@@ -14,6 +14,7 @@ namespace {
 using test::TemporaryFolder;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 using Overrides = std::vector<std::string>;
 
@@ -231,10 +232,10 @@ TEST(Overrides, Messages) {
     EXPECT_THAT(messageOf("", {"cloud.0.albedo=1.2"}), HasSubstr("got 1.2 (--set cloud.0.albedo)"));
     EXPECT_THAT(messageOf("", {"cloud.extinction=1"}), HasSubstr("write cloud.0.extinction"));
     EXPECT_THAT(messageOf("", {"cloud.0=1"}), HasSubstr("(--set cloud.0)"));
-    EXPECT_THAT(messageOf("", {"image.widht=3"}), HasSubstr("did you mean \"width\"?"));
+    EXPECT_THAT(messageOf("", {"image.widht=3"}), HasSubstr("did you mean image.width?"));
     EXPECT_THAT(messageOf("", {"nosection.x=1"}),
                 AllOf(HasSubstr("unknown section \"nosection\""), HasSubstr("the sections are camera, cloud")));
-    EXPECT_THAT(messageOf("", {"imag.width=1"}), HasSubstr("did you mean \"image\"?"));
+    EXPECT_THAT(messageOf("", {"imag.width=1"}), HasSubstr("did you mean image.width?"));
     EXPECT_THAT(messageOf("", {"image.width.x=1"}), HasSubstr("write image.width alone"));
     for (const char* index : {"x", "00", "-1", "+0", "", "0x0"}) {
         EXPECT_THAT(messageOf("", {"cloud." + std::string(index) + ".extinction=1"}),
@@ -246,6 +247,31 @@ TEST(Overrides, Messages) {
     }
     EXPECT_THAT(messageOf("", {"image.width=1\nimage.height=2"}), HasSubstr("width must be a whole number"));
     EXPECT_THAT(messageOf("", {"camera.target=[1, 2"}), HasSubstr("got a string"));
+}
+
+/// The advice for an override is a path that makes a scene with the same value.
+TEST(Overrides, AdviceWorks) {
+    const auto adviceFor = [](const std::string& toml, const std::string& override) {
+        const std::string message = messageOf(toml, {override}), start = "did you mean ";
+        const std::size_t at = message.find(start);
+        if (at == std::string::npos) return std::string();
+        const std::string advice = message.substr(at + start.size(), message.rfind('?') - at - start.size());
+        const std::string first = advice.substr(0, advice.find(' '));
+        EXPECT_NO_THROW(parseScene(toml, "x.toml", Overrides{first + override.substr(override.find('='))})) << advice;
+        return advice;
+    };
+    EXPECT_EQ(adviceFor("", "extinction=1"), "cloud.0.extinction");
+    EXPECT_EQ(adviceFor("", "extintion=1"), "cloud.0.extinction");
+    EXPECT_EQ(adviceFor("", "phase.g=0.5"), "cloud.0.phase.g");
+    EXPECT_EQ(adviceFor("", "width=64"), "image.width");
+    EXPECT_EQ(adviceFor("", "clod.0.albedo=1"), "cloud.0.albedo");
+    EXPECT_EQ(adviceFor("[[cloud]]\n[[cloud]]\n", "cloud.1.albdeo=1"), "cloud.1.albedo");
+    EXPECT_EQ(adviceFor("", "seed=7"), "cloud.0.seed or photon_map.seed");
+    EXPECT_EQ(adviceFor("", "visibility=1000"), "fog.media.0.visibility");
+    // no key takes this value, so none is advised; and nobody is sent to a key that does not exist
+    EXPECT_EQ(adviceFor("", "width=-1"), "");
+    EXPECT_THAT(messageOf("", {"cloud.veil.nonsense=1"}), Not(HasSubstr("write")));
+    EXPECT_THAT(messageOf("", {"cloud.phase.nonsense=1"}), Not(HasSubstr("write")));
 }
 
 TEST(Quality, PresetsStandBelowTheFile) {

@@ -30,6 +30,8 @@ def add_options(parser):
     parser.add_argument("--vdb", type=pathlib.Path, help="wdas_cloud_sixteenth.vdb, without which disney-cloud is left out")
     parser.add_argument("--scenes", type=pathlib.Path, default=ROOT / "configs/scenes",
                         help="folder of scene files (default: that of this checkout)")
+    parser.add_argument("--layers", default="", metavar="REGEX",
+                        help="compare only layers whose name this matches somewhere, where a build has new ones")
     parser.add_argument("--folder", type=pathlib.Path, help="for the pictures, which stay there (default: gone afterwards)")
 
 
@@ -48,23 +50,23 @@ def made(case, side):
         return failure
 
 
-def row_of(case, pictures):
-    """The cells of a row, and whether the pictures are equal."""
+def row_of(case, pictures, wanted):
+    """The cells of a row, and whether the pictures are equal in the wanted layers."""
     failures = [f"{name}: {picture}" for name, picture in zip(("old", "new"), pictures) if isinstance(picture, Failure)]
     if failures:
         return [case.name, "", "", "**not made** " + "; ".join(failures)], False
-    old, new = pictures
+    old, new = ({name: values for name, values in picture.items() if wanted.search(name)} for picture in pictures)
     found = difference(old, new)
     return [case.name, str(len(old)), pixels_of(old), f"**differs** {found}" if found else "equal"], not found
 
 
-def compare(cases, sides):
+def compare(cases, sides, wanted):
     """Prints the table; returns how many cases differ."""
     print_head(["case", "layers", "pixels", "result"])
     differing = 0
     with ThreadPoolExecutor(2) as pool:
         for case in cases:
-            cells, equal = row_of(case, list(pool.map(lambda side: made(case, side), sides)))
+            cells, equal = row_of(case, list(pool.map(lambda side: made(case, side), sides)), wanted)
             differing += not equal
             print_row(cells)
     return differing
@@ -83,7 +85,7 @@ def main(options):
         sides = [Side(program.resolve(), folder.resolve() / name)
                  for program, name in ((options.old, "old"), (options.new, "new"))]
         try:
-            differing = compare(cases, sides)
+            differing = compare(cases, sides, re.compile(options.layers))
         finally:
             for side in sides:
                 side.close()

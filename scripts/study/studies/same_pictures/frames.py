@@ -28,12 +28,26 @@ def exr_layers(data):
         return read_exr(file.name)
 
 
+# channels of the products that have several, as EXR files call them
+CHANNELS = {"color": ["R", "G", "B", "A"], "cloud": ["cloud.R", "cloud.G", "cloud.B", "cloud.A"],
+            "transmittance": ["transmittance.R", "transmittance.G", "transmittance.B"]}
+
+
+def channels_of(name, values):
+    """The channels of a product by the names that they have in an EXR file."""
+    if name not in CHANNELS:
+        return {name: values}
+    return {channel: values[..., i] for i, channel in enumerate(CHANNELS[name][:values.shape[-1]])}
+
+
 def layers_of(frame):
     """The layers of all views of a frame, by number and name; those of PNG and JPEG files are their bytes."""
     found = {}
     for i, view in enumerate(frame.info["views"]):
         if "products" in view:
-            layers = {part["name"]: frame.values(part["name"], i) for part in view["products"]}
+            layers = {}
+            for part in view["products"]:
+                layers |= channels_of(part["name"], frame.values(part["name"], i))
         elif view["type"] == "exr":
             layers = exr_layers(frame.file(i))
         else:

@@ -14,7 +14,7 @@ def main():
         client.change(wind=options.wind)
         for number in range(options.frames):
             frame = client.frame(time=number * options.step, width=options.width, height=options.height,
-                                 encoding="exr", products=["color", "transmittance", "depth"])
+                                 encoding="exr", products=["color", "cloud", "transmittance", "depth"])
             print(save(frame, options.folder, f"frame-{number:04}.exr"), frame.info["photons"], "photons")
 
 
