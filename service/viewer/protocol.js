@@ -48,8 +48,8 @@ export class ServiceError extends Error {
     }
 }
 
-// A connection that comes back by itself. Calls opened(), closed(), framed(message) for each picture of the stream and
-// streamFailed(error) where the stream ends.
+// A connection that comes back by itself. Calls opened(), closed(), refused(error) where the server ends it, framed(message)
+// for each picture of the stream and streamFailed(error) where the stream ends.
 export class Connection {
     constructor(url, handlers) {
         this.url = url;
@@ -111,11 +111,12 @@ export class Connection {
     }
 
     received(message) {
-        this.delay = 250;
         const failure = message.type === types.error ? new ServiceError(message.json.code, message.json.message) : null;
+        if (!failure) this.delay = 250;
         const asked = this.waiting.get(message.id);
         this.waiting.delete(message.id);
-        if (message.id === stream && failure) this.handlers.streamFailed(failure);
+        if (message.id === 0 && failure) this.handlers.refused(failure);
+        else if (message.id === stream && failure) this.handlers.streamFailed(failure);
         else if (message.id === stream && message.type === (types.start_stream | reply)) this.handlers.framed(message);
         else if (asked && failure) asked.reject(failure);
         else if (asked) asked.resolve(message);

@@ -248,7 +248,7 @@ const viewing = new Viewing(url.href, readLink(location.hash), {
 });
 const orbit = new Orbit(element("picture"), changed);
 const panel = new Panel(viewing, () => orbit.azimuth, changed);
-if (matchMedia("(max-width: 600px)").matches) fold(false);
+if (matchMedia("(max-width: 600px), (max-height: 480px)").matches) fold(false);
 acceptDrops();
 wire();
 viewing.connect(token);

@@ -38,6 +38,7 @@ export class Viewing {
         this.connection = new Connection(this.url, {
             opened: () => this.greet(),
             closed: () => this.page.connected(false),
+            refused: (error) => this.page.notices.set("connection", error.message),
             framed: (message) => this.framed(message),
             streamFailed: (error) => this.streamFailed(error),
         });

@@ -153,7 +153,7 @@ TEST(Requests, ScenesAreListedWithoutAnyField) {
 
 TEST(Requests, PayloadsAndTypesThatNobodyKnowsAreRefused) {
     EXPECT_EQ(refusal(request(MessageType::frame, "{}", bytesOf("x"))), "bad_request: ");
-    for (const int type : {0, 12, 77, 0x7FFF, 0x8000, 0x8004, 0xFFFF})
+    for (const int type : {0, 15, 77, 0x7FFF, 0x8000, 0x8004, 0xFFFF})
         EXPECT_EQ(refusal(request(static_cast<MessageType>(type), "{}")), "unknown_type: ") << type;
 }
 
