@@ -125,6 +125,6 @@ export class Panel {
         element("which").hidden = clouds.length < 2;
         const values = clouds.map(({extinction}) => extinction).filter((x) => x > 0);
         const middle = values.length > 0 ? Math.round(Math.log10(values[0])) : -1;
-        this.sliders.range("extinction", middle - 2, middle + 2);
+        this.sliders.range("extinction", middle - 2, middle + 1.5);
     }
 }

@@ -59,7 +59,7 @@ export class Viewing {
             return;
         }
         this.page.connected(true);
-        if (await this.hasScene()) this.load();
+        if (await this.hasScene().catch(() => false)) this.load();
     }
 
     // Whether there is something to load: where the server has no default scene, the first of its folder.

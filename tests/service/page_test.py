@@ -238,6 +238,70 @@ class Page(PageTest):
         self.assertEqual(browser.notices(), {})
 
 
+# A connection whose server answers with an error of id 0 and hangs up, three times.
+REFUSED = """
+const done = arguments[0];
+import("/protocol.js").then(({Connection, encode, types}) => {
+    const told = [], times = [];
+    globalThis.WebSocket = class {
+        static OPEN = 1;
+        constructor() {
+            times.push(performance.now());
+            if (times.length === 4)
+                return setTimeout(() => done([told, times.slice(1).map((time, i) => time - times[i])]));
+            const busy = encode(types.error, 0, {code: "busy", message: "too many are connected"});
+            setTimeout(() => {
+                this.onmessage({data: busy.buffer});
+                this.onclose();
+            });
+        }
+    };
+    new Connection("ws://nowhere", {closed() {}, refused: (error) => told.push(error.message)});
+});"""
+
+# A stream that fails since the server lost the scene: what stands on the page then, after the scene was loaded again,
+# and after the next picture.
+LOST = """
+const done = arguments[0];
+Promise.all([import("/viewing.js"), import("/link.js")]).then(([{Viewing}, {freshWishes}]) => {
+    const notices = new Map();
+    notices.clear = (topic) => notices.delete(topic);
+    const nothing = () => {};
+    const viewing = new Viewing("", freshWishes(), {notices, loading: nothing, loaded: nothing, framed: nothing, view: nothing});
+    viewing.welcome = {scene: "a.toml", quality: ""};
+    const original = {sun: {direction_to: [0, 1, 0]}, clouds: []};
+    const asked = [];
+    viewing.connection = {stream: nothing, ask: async (name, json) => {
+        asked.push(`${name} ${json.name}`);
+        return {json: {original, warnings: []}};
+    }};
+    const seen = [];
+    viewing.streamFailed({code: "internal", message: "the renderer failed"});
+    seen.push([...notices.keys()], [...asked]);
+    setTimeout(() => {
+        seen.push([...asked]);
+        viewing.framed({json: {repeat: []}});
+        seen.push([...notices.keys()]);
+        done(seen);
+    }, 1500);
+});"""
+
+
+class Failures(PageTest):
+    def setUp(self):
+        self.browser.open(self.server)
+
+    def test_a_server_that_refuses_is_asked_less_and_less_often(self):
+        told, pauses = self.browser.driver.execute_async_script(REFUSED)
+        self.assertEqual(told, ["too many are connected"] * 3)
+        for pause, least in zip(pauses, (250, 500, 1000)):
+            self.assertGreaterEqual(pause, least)
+
+    def test_a_scene_that_the_server_lost_is_loaded_again(self):
+        seen = self.browser.driver.execute_async_script(LOST)
+        self.assertEqual(seen, [["stream"], [], ["load_scene a.toml"], []])
+
+
 class First(unittest.TestCase):
     # the default cumulus as --quality draft has it
     DRAFT = "[photon_map]\nphotons = 200000\ngenerations = 10\nbands = 3\n"
