@@ -16,12 +16,25 @@ struct File {
     std::string_view target, type, body;
 };
 
-constexpr std::array<File, 6> files{{
+constexpr std::string_view script = "text/javascript; charset=utf-8";
+
+constexpr std::array<File, 17> files{{
     {"/", "text/html; charset=utf-8", viewer::index_html},
+    {"/icon.svg", "image/svg+xml", viewer::icon_svg},
     {"/viewer.css", "text/css; charset=utf-8", viewer::viewer_css},
-    {"/viewer.js", "text/javascript; charset=utf-8", viewer::viewer_js},
-    {"/protocol.js", "text/javascript; charset=utf-8", viewer::protocol_js},
-    {"/orbit.js", "text/javascript; charset=utf-8", viewer::orbit_js},
+    {"/controls.js", script, viewer::controls_js},
+    {"/figures.js", script, viewer::figures_js},
+    {"/light.js", script, viewer::light_js},
+    {"/link.js", script, viewer::link_js},
+    {"/notices.js", script, viewer::notices_js},
+    {"/orbit.js", script, viewer::orbit_js},
+    {"/panel.js", script, viewer::panel_js},
+    {"/picture.js", script, viewer::picture_js},
+    {"/protocol.js", script, viewer::protocol_js},
+    {"/save.js", script, viewer::save_js},
+    {"/upload.js", script, viewer::upload_js},
+    {"/viewer.js", script, viewer::viewer_js},
+    {"/viewing.js", script, viewer::viewing_js},
     {"/health", "text/plain; charset=utf-8", "ok\n"},
 }};
 

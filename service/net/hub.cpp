@@ -4,6 +4,7 @@
 
 #include "service/protocol/error_reply.h"
 #include "service/protocol/replies.h"
+#include "service/render/scene_list.h"
 #include "service/telemetry/event_log.h"
 #include "service/values/request_error.h"
 
@@ -81,7 +82,12 @@ void Hub::dispatch(Peer& peer, Incoming incoming) {
             peer.enqueue(upload(peer, id, *chunk), false);
             peer.ended(id);
         } else if (std::holds_alternative<StatisticsRequest>(incoming.request)) {
-            peer.enqueue(statisticsReply(id, metrics_.values(), bridge_.service().sceneState(peer.client())), false);
+            RenderService& service = bridge_.service();
+            const std::optional<LoadState> loading = service.loadState(peer.client());
+            peer.enqueue(statisticsReply(id, metrics_.values(), service.sceneState(peer.client()), loading), false);
+            peer.ended(id);
+        } else if (std::holds_alternative<ListScenes>(incoming.request)) {
+            peer.enqueue(scenesReply(id, sceneNames(config_.render.scenes)), false);
             peer.ended(id);
         } else if (auto request = renderRequest(std::move(incoming.request))) {
             if (const auto* stop = std::get_if<StopStream>(&*request)) peer.ended(stop->stream);

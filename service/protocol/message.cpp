@@ -58,6 +58,8 @@ const char* messageName(MessageType type) {
             return "ping";
         case MessageType::change:
             return "change";
+        case MessageType::listScenes:
+            return "list_scenes";
         case MessageType::error:
             break;
     }

@@ -29,6 +29,7 @@ enum class MessageType : std::uint16_t {
     statistics = 9,
     ping = 10,
     change = 11,
+    listScenes = 14,
     error = 0x8000,
 };
 inline constexpr std::uint16_t replyBit = 0x8000;

@@ -13,12 +13,28 @@ json listOf(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
+json bodyOf(const CloudDescription& cloud) {
+    json body{{"name", cloud.name}, {"extinction", cloud.extinction}};
+    if (cloud.asymmetry) body["g"] = *cloud.asymmetry;
+    return body;
+}
+
+json sunOf(const glm::dvec3& directionTo, const glm::dvec3& irradiance) {
+    return {{"direction_to", listOf(directionTo)}, {"irradiance", listOf(irradiance)}};
+}
+
+json originalOf(const SceneDescription& scene) {
+    json clouds = json::array();
+    for (const CloudDescription& cloud : scene.originalClouds) clouds.push_back(bodyOf(cloud));
+    return {{"sun", sunOf(scene.originalSun.directionTo, scene.originalSun.irradiance)}, {"clouds", std::move(clouds)}};
+}
+
 json bodyOf(const SceneDescription& scene) {
     json body{{"name", scene.name},
               {"width", scene.image.width},
               {"height", scene.image.height},
               {"exposure", scene.image.exposure},
-              {"sun", {{"direction_to", listOf(scene.sunDirection)}, {"irradiance", listOf(scene.sunIrradiance)}}},
+              {"sun", sunOf(scene.sunDirection, scene.sunIrradiance)},
               {"seed", scene.seed},
               {"generations", scene.generations},
               {"collectors", scene.collectors},
@@ -28,6 +44,7 @@ json bodyOf(const SceneDescription& scene) {
               {"radius", scene.radius}};
     if (scene.extinction) body["extinction"] = *scene.extinction;
     if (scene.asymmetry) body["g"] = *scene.asymmetry;
+    body["original"] = originalOf(scene);
     return body;
 }
 
@@ -37,7 +54,8 @@ json bodyOf(const SceneState& scene) {
             {"current_generations", scene.photons.current},
             {"generations_wanted", scene.generationsWanted},
             {"photons", scene.photons.photons()},
-            {"trace_milliseconds", scene.traceMilliseconds}};
+            {"trace_milliseconds", scene.traceMilliseconds},
+            {"clients", scene.clients}};
 }
 
 json bodyOf(const SceneShown& shown) {
@@ -110,11 +128,16 @@ Message encodeReply(std::uint64_t id, const Reply& reply) {
 }
 
 Message statisticsReply(std::uint64_t id, const std::vector<std::pair<std::string_view, std::int64_t>>& counters,
-                        const std::optional<SceneState>& scene) {
+                        const std::optional<SceneState>& scene, const std::optional<LoadState>& loading) {
     json body = json::object();
     for (const auto& [name, value] : counters) body[std::string(name)] = value;
     if (scene) body["scene"] = bodyOf(*scene);
+    if (loading) body["loading"] = {{"step", loading->step}, {"seconds", loading->seconds}};
     return {replyTo(MessageType::statistics), id, body.dump(), {}};
+}
+
+Message scenesReply(std::uint64_t id, const std::vector<std::string>& names) {
+    return {replyTo(MessageType::listScenes), id, json{{"scenes", names}}.dump(), {}};
 }
 
 Message uploadReply(std::uint64_t id, std::uint64_t received, bool complete) {

@@ -28,9 +28,13 @@ std::string welcomeText(const Welcome& welcome);
 /// The message that tells a result.
 Message encodeReply(std::uint64_t id, const Reply& reply);
 
-/// The reply to `statistics`: counters by name, and what the client's scene is up to.
+/// The reply to `statistics`: counters by name, what the client's scene is up to, and how far the load of its next one
+/// is.
 Message statisticsReply(std::uint64_t id, const std::vector<std::pair<std::string_view, std::int64_t>>& counters,
-                        const std::optional<SceneState>& scene);
+                        const std::optional<SceneState>& scene, const std::optional<LoadState>& loading = {});
+
+/// The reply to `list_scenes`. `names` are UTF-8.
+Message scenesReply(std::uint64_t id, const std::vector<std::string>& names);
 
 /// The reply to a chunk of an upload.
 Message uploadReply(std::uint64_t id, std::uint64_t received, bool complete);

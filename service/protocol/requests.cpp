@@ -128,6 +128,8 @@ Request readRequest(Message& message, JsonFields& fields, const RequestLimits& l
             return Ping{};
         case MessageType::change:
             return readChange(fields);
+        case MessageType::listScenes:
+            return ListScenes{};
         case MessageType::error:
             break;
     }

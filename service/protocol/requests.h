@@ -17,9 +17,10 @@ struct Hello {
 
 struct StatisticsRequest {};
 struct Ping {};
+struct ListScenes {};
 
 using Request = std::variant<Hello, LoadScene, Upload, FrameRequest, StartStream, StopStream, Composite, Cancel,
-                             StatisticsRequest, Ping, Change>;
+                             StatisticsRequest, Ping, Change, ListScenes>;
 
 /// Reads a request from a message. Errors: RequestError `bad_request` (the field is named), `too_large`,
 /// `unknown_type`.

@@ -53,6 +53,8 @@ class RenderService {
     void frameSent(ClientId client);
     /// State of the scene that the client sees; none where it sees none.
     std::optional<SceneState> sceneState(ClientId client);
+    /// How far the scene is that the client loads; none where it loads none.
+    std::optional<LoadState> loadState(ClientId client) const { return loader_.state(client); }
 
     /// Refuses new requests, ends streams, gives up loads, and finishes the frames that wait, drawn with the photons
     /// that are there; those that are not done after `shutdownSeconds` fail with `shutting_down`. Returns when all is

@@ -32,7 +32,7 @@ SlotPointer loadDefaultScene(const RenderConfig& config) {
     try {
         SourcedScene found = sourceScene(load, config, 0);
         logEvent("info", "scene_loading", {{"scene", found.scene.source}});
-        return std::make_shared<SceneSlot>(found.key, found.scene, config, std::function<void()>());
+        return std::make_shared<SceneSlot>(found.key, found.scene, config, std::function<void()>(), nullptr);
     } catch (const std::runtime_error& e) {
         throw InputError(std::string("the default scene: ") + e.what(), config.defaultScene, "change scenes.default");
     }
@@ -87,6 +87,18 @@ bool SceneLoader::busy() const {
     return loading_.has_value();
 }
 
+std::optional<LoadState> SceneLoader::state(ClientId client) const {
+    const std::lock_guard lock(mutex_);
+    if (loading_ && loading_->client == client)
+        return LoadState{step_, std::chrono::duration<double>(Clock::now() - began_).count()};
+    return waits(client) ? std::optional(LoadState{"waiting", 0.0}) : std::nullopt;
+}
+
+void SceneLoader::noteStep(std::string_view step) {
+    const std::lock_guard lock(mutex_);
+    step_ = step;
+}
+
 std::vector<SceneLoader::LoadJob> SceneLoader::close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
@@ -110,6 +122,8 @@ void SceneLoader::loop() {
             job = std::move(queue_.front());
             queue_.pop_front();
             loading_ = job;
+            step_ = "reading the scene";
+            began_ = Clock::now();
             abandon_ = false;
         }
         load(job);
@@ -121,9 +135,11 @@ SlotPointer SceneLoader::slotFor(const LoadJob& job) {
     const SourcedScene found = sourceScene(job.load, config_, job.client);
     if (SlotPointer held = host_.find(found.key)) return held;
     logEvent("info", "scene_loading", {{"client", job.client}, {"scene", found.scene.source}});
-    auto slot = std::make_shared<SceneSlot>(found.key, found.scene, config_, [this] {
+    const auto abandoned = [this] {
         if (abandon_) throw Cancelled{};
-    });
+    };
+    auto slot = std::make_shared<SceneSlot>(found.key, found.scene, config_, abandoned,
+                                            [this](std::string_view step) { noteStep(step); });
     host_.keep(slot);
     metrics_.add(Metrics::scenesLoaded);
     logEvent("info", "scene_loaded",

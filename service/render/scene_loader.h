@@ -49,6 +49,8 @@ class SceneLoader {
     /// Ends the load under way. Returns whether the client waits for another; none where somebody has answered it.
     std::optional<bool> end(const LoadJob& job);
     bool busy() const;
+    /// How far the client's load is that is under way, or else the one that waits.
+    std::optional<LoadState> state(ClientId client) const;
     /// Gives up the load under way, refuses those to come, and returns those that waited.
     std::vector<LoadJob> close();
     /// Takes the load under way, which its thread will not answer any more.
@@ -60,6 +62,7 @@ class SceneLoader {
     void loop();
     void load(const LoadJob& job);
     SlotPointer slotFor(const LoadJob& job);
+    void noteStep(std::string_view step);
     bool waits(ClientId client) const;
 
     const RenderConfig& config_;
@@ -70,6 +73,8 @@ class SceneLoader {
     std::condition_variable wake_;
     std::deque<LoadJob> queue_;
     std::optional<LoadJob> loading_;  // its client waits for it
+    std::string step_;                // of the load under way, since `began_`
+    Clock::time_point began_;
     bool closed_ = false, stopping_ = false;
     std::atomic<bool> abandon_{false};  // ends the load under way
 

@@ -29,22 +29,38 @@ Clock::duration inSeconds(double seconds) {
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
+std::vector<CloudDescription> cloudsOf(const scene::Scene& scene) {
+    std::vector<CloudDescription> clouds;
+    for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
+        const scene::Phase& phase = scene.clouds[i].phase;
+        const bool readsG =
+            phase.model == scene::PhaseModel::henyeyGreenstein || phase.model == scene::PhaseModel::schlick;
+        clouds.push_back(
+            {scene::nameOf(scene, i), scene.clouds[i].extinction, readsG ? std::optional(phase.g) : std::nullopt});
+    }
+    return clouds;
+}
+
 }  // namespace
 
 SceneSlot::SceneSlot(std::string slotKey, const scene::Scene& scene, const RenderConfig& config,
-                     const std::function<void()>& abandoned)
-    : key_(std::move(slotKey)), scene_(scene), limits_(config.limits), abandoned_(abandoned) {
+                     const std::function<void()>& abandoned, const std::function<void(std::string_view)>& begins)
+    : key_(std::move(slotKey)), scene_(scene), limits_(config.limits), abandoned_(abandoned), begins_(begins) {
     deadline_ = Clock::now() + inSeconds(limits_.loadSeconds);
     RendererOptions options;
     options.device = config.device;
     options.keepRing = true;
     options.check = [this] { guard(); };
-    options.report = [this](std::string_view, std::uint64_t, std::uint64_t) { guard(); };
+    options.report = [this](std::string_view part, std::uint64_t, std::uint64_t) {
+        guard();
+        if (begins_) begins_(part);
+    };
     renderer_ = std::make_unique<Renderer>(scene_, options);
     learnCosts();
     probeNoise();
     deadline_ = Clock::time_point::max();
     abandoned_ = {};
+    begins_ = {};
     lastTraced_ = Clock::now();
     description_ = describe();
 }
@@ -78,12 +94,11 @@ SceneDescription SceneSlot::describe() const {
     result.collectors = statistics.collectors;
     result.device = statistics.device;
     result.warnings = statistics.warnings;
+    result.originalSun = scene_.sun;
+    result.originalClouds = cloudsOf(scene_);
     if (!scene_.clouds.empty()) {
         result.extinction = renderer_->extinction();
-        const scene::Phase& phase = scene_.clouds[0].phase;
-        const bool readsG =
-            phase.model == scene::PhaseModel::henyeyGreenstein || phase.model == scene::PhaseModel::schlick;
-        if (readsG) result.asymmetry = phase.g;
+        result.asymmetry = result.originalClouds[0].asymmetry;
     }
     result.centre = renderer_->bounds().centre;
     result.radius = renderer_->bounds().radius();

@@ -35,9 +35,10 @@ class TooSlow : public std::runtime_error {
 class SceneSlot {
   public:
     /// Loads and prepares the scene, and draws a small picture, so that shaders are compiled and costs known.
-    /// `abandoned` is called between the steps; what it throws ends the load. Errors: InputError, Error, TooSlow.
+    /// `abandoned` is called between the steps; what it throws ends the load. `begins` is told which step begins. Both
+    /// may be empty. Errors: InputError, Error, TooSlow.
     SceneSlot(std::string slotKey, const scene::Scene& scene, const RenderConfig& config,
-              const std::function<void()>& abandoned);
+              const std::function<void()>& abandoned, const std::function<void(std::string_view)>& begins);
 
     const std::string& key() const { return key_; }
     /// The scene as it was loaded.
@@ -108,6 +109,7 @@ class SceneSlot {
     const scene::Scene scene_;
     const RenderLimits& limits_;
     std::function<void()> abandoned_;
+    std::function<void(std::string_view)> begins_;  // a step of the load
     const std::atomic<bool>* cancelled_ = nullptr;  // of the job that is drawn
     Clock::time_point deadline_ = Clock::time_point::max();
     std::unique_ptr<Renderer> renderer_;

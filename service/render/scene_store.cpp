@@ -65,7 +65,11 @@ std::uint64_t SceneStore::revision(ClientId client) const {
 
 std::optional<SceneState> SceneStore::state(ClientId client) const {
     const Published* known = published(client);
-    return known == nullptr ? std::nullopt : std::optional(known->state);
+    if (known == nullptr) return std::nullopt;
+    SceneState state = known->state;
+    const SlotPointer slot = shownTo(client);
+    for (const auto& [other, shown] : shownTo_) state.clients += shown == slot ? 1U : 0U;
+    return state;
 }
 
 bool SceneStore::starves(const SceneSlot& slot, Clock::time_point now) {

@@ -24,6 +24,13 @@ struct PhotonState {
     std::uint64_t photons() const { return photonsEach * static_cast<std::uint64_t>(generations); }
 };
 
+/// A cloud of a scene, as its file says.
+struct CloudDescription {
+    std::string name;                 ///< its index where the file gives none
+    double extinction = 0.0;          ///< 1/m where the density is 1
+    std::optional<double> asymmetry;  ///< g of the phase function; absent for those that have none
+};
+
 /// What a scene is, at the time it was loaded.
 struct SceneDescription {
     std::string name;
@@ -34,10 +41,12 @@ struct SceneDescription {
     std::uint64_t collectors = 0;
     std::string device;
     std::vector<std::string> warnings;
-    std::optional<double> extinction;  ///< 1/m; absent where the scene has no cloud
-    std::optional<double> asymmetry;   ///< g of the phase function; absent for those that have none
-    glm::dvec3 centre{0.0};            ///< metres, of a ball around the clouds
-    double radius = 0.0;               ///< metres
+    std::optional<double> extinction;              ///< 1/m; absent where the scene has no cloud
+    std::optional<double> asymmetry;               ///< g of the phase function; absent for those that have none
+    scene::Sun originalSun;                        ///< as the file says, whatever the light is now
+    std::vector<CloudDescription> originalClouds;  ///< as the file says
+    glm::dvec3 centre{0.0};                        ///< metres, of a ball around the clouds
+    double radius = 0.0;                           ///< metres
 };
 
 /// How far the photons of a scene are.
@@ -46,6 +55,13 @@ struct SceneState {
     PhotonState photons;
     int generationsWanted = 0;
     double traceMilliseconds = 0.0;  ///< of a generation, lately
+    std::uint64_t clients = 0;       ///< that are shown the scene, and share its light
+};
+
+/// How far the loading of a client's scene is.
+struct LoadState {
+    std::string step;      ///< as "preparing the cloud"; "waiting" while another scene is loaded
+    double seconds = 0.0;  ///< since the load began; 0 while it waits
 };
 
 /// A picture of one view. Its size is that of the view; it may have been drawn smaller and enlarged.

@@ -1,153 +1,254 @@
-// The live cloud: one stream over a WebSocket, whose wishes follow the camera and the sliders.
-import {Connection, reply, types} from "./protocol.js";
-import {Orbit} from "./orbit.js";
+// The page: joins the controls to the view of the server.
+import {buttons, fill} from "./controls.js";
+import {figuresOf, ownerOfLight, writeFigures} from "./figures.js";
+import {freshWishes, keepToken, linkOf, readLink, takeToken} from "./link.js";
+import {Notices} from "./notices.js";
+import {cameraPresets, Orbit} from "./orbit.js";
+import {Panel} from "./panel.js";
+import {Picture} from "./picture.js";
+import {copyText, savePicture} from "./save.js";
+import {upload} from "./upload.js";
+import {Viewing} from "./viewing.js";
 
-const stream = 1, hello = 2; // ids of requests
-let lastLoad = 2; // each has one of its own: several can be under way
-const fov = 40;
-const restTime = 400;          // ms without a touch after which pictures get all pixels
-const hastyMilliseconds = 150; // for a picture until then
-const clearAir = 1e6;          // metres of visibility at which there is no fog
+const followTime = 3000; // ms without a touch after which the sliders follow what others change
+const linkTime = 300;    // ms without a change after which the address holds the view
 
 const element = (id) => document.getElementById(id);
-const canvas = element("picture");
-const token = new URLSearchParams(location.hash.slice(1)).get("token") ?? "";
+const notices = new Notices(element("notices"));
+const picture = new Picture(element("picture"));
 
-const sliders = {
-    azimuth: {show: (v) => `${v}°`},
-    elevation: {show: (v) => `${v}°`},
-    exposure: {show: (v) => v.toFixed(1)},
-    extinction: {show: (v) => (10 ** v).toPrecision(2)},
-    g: {show: (v) => v.toFixed(2)},
-    fog: {show: (v) => (10 ** v >= clearAir ? "none" : `${Math.round(10 ** v)} m`)},
-};
+let last = null;         // the last frame's reply, and when it came
+let clients = null;      // who see the scene
+let loadingSince = null; // while a scene loads
+let sceneNames = [];
+let linkTimer = 0;
 
-let welcome = null;  // the server's reply to hello
-let scene = null;    // its reply to load_scene
-let original = null; // the first of these
-const moved = new Set(); // sliders: what nobody touched stays as others have it
-let touched = 0;     // when the user last moved something
-let pending = false;
-
-const value = (name) => Number(element(name).value);
-
-function setSlider(name, number) {
-    element(name).value = number;
-    showSlider(name);
+function view() {
+    const [width, height] = picture.size();
+    return {camera: orbit.camera(width, height), width, height, exposure: panel.exposure};
 }
 
-function showSlider(name) {
-    element(name).nextElementSibling.textContent = sliders[name].show(value(name));
-}
-
-function wishes() {
-    const ratio = Math.min(window.devicePixelRatio, 1.5);
-    const scale = Math.min(1, 1280 / (canvas.clientWidth * ratio)) * ratio;
-    const hasty = performance.now() - touched < restTime;
-    return {
-        camera: {position: orbit.position(), target: orbit.center, vertical_fov: fov},
-        width: Math.max(16, Math.round(canvas.clientWidth * scale)),
-        height: Math.max(16, Math.round(canvas.clientHeight * scale)),
-        ...(moved.has("azimuth") || moved.has("elevation") ?
-            {sun: {azimuth: value("azimuth"), elevation: value("elevation")}} : {}),
-        ...(moved.has("extinction") ? {extinction: 10 ** value("extinction")} : {}),
-        exposure: value("exposure"),
-        encoding: "jpeg",
-        quality: 88,
-        when: "change",
-        ...(hasty ? {budget: {milliseconds: hastyMilliseconds}} : {}),
-    };
-}
-
-// The stream's wishes, at most once a picture of the screen, and once more at rest.
 function changed() {
-    touched = performance.now();
-    if (pending || !scene) return;
-    pending = true;
-    requestAnimationFrame(() => {
-        pending = false;
-        connection.send(types.startStream, stream, wishes());
-        setTimeout(() => {
-            if (performance.now() - touched >= restTime) connection.send(types.startStream, stream, wishes());
-        }, restTime + 20);
+    viewing.ask();
+    keepLink();
+}
+
+// The address follows the view, so that reloading or copying it brings the view back.
+function keepLink() {
+    clearTimeout(linkTimer);
+    linkTimer = setTimeout(() => {
+        if (viewing.scene) history.replaceState(null, "", linkNow());
+    }, linkTime);
+}
+
+function linkNow() {
+    const {azimuth, elevation, distance, center} = orbit;
+    return linkOf({...viewing.wishes, camera: {azimuth, elevation, distance, center}});
+}
+
+// A scene is there. `isOther`: not the one of before with other settings.
+function loaded(isOther) {
+    const {scene, wishes} = viewing;
+    if (isOther) orbit.setBall(scene.center, scene.radius);
+    if (wishes.camera) Object.assign(orbit, wishes.camera);
+    wishes.camera = null;
+    panel.show();
+    showScenes();
+    document.title = `${viewing.sceneName()} – Lumulus`;
+    keepLink();
+}
+
+function showScenes() {
+    const {wishes, welcome} = viewing;
+    const options = sceneNames.map((name) => [name, name.replace(/\.toml$/, "").replaceAll("-", " ")]);
+    if (wishes.file) options.push(["", wishes.file]);
+    fill(element("scene"), options, wishes.file ? "" : wishes.scene || welcome.scene);
+}
+
+async function listScenes() {
+    try {
+        sceneNames = await viewing.sceneNames();
+        showScenes();
+        notices.clear("list");
+    } catch (error) {
+        if (error.code !== "closed") notices.set("list", error.message);
+    }
+}
+
+// Opens a scene of the list, or an upload: all but quality and owner of the light begins anew.
+function openScene(what) {
+    const {quality, own} = viewing.wishes;
+    viewing.wishes = Object.assign(freshWishes(), {quality, own}, what);
+    viewing.load();
+}
+
+function connected(isOpen) {
+    element("status").textContent = isOpen ? "" : "reconnecting";
+    if (!isOpen) return;
+    element("ask").hidden = true;
+    notices.clear("connection");
+    listScenes();
+}
+
+function tokenWanted() {
+    element("ask").hidden = false;
+    element("refused").hidden = viewing.token === "";
+    element("token").focus();
+}
+
+function loading(what) {
+    if (!what) loadingSince = null;
+    else loadingSince ??= performance.now();
+    showProgress(what ? `Loading ${what.name}` : "", null);
+}
+
+// `share`: 0 to 1, or null where it is not known. No text: nothing is under way.
+function showProgress(text, share) {
+    element("loading").hidden = text === "";
+    element("loading-text").textContent = text;
+    if (share === null) element("progress").removeAttribute("value");
+    else element("progress").value = share;
+}
+
+function statistics(json) {
+    clients = json.scene?.clients ?? null;
+    const seconds = loadingSince === null ? 0 : Math.floor((performance.now() - loadingSince) / 1000);
+    const step = json.loading ? `: ${json.loading.step}` : "";
+    if (seconds > 0) showProgress(`Loading ${viewing.sceneName()}${step}, ${seconds} s`, null);
+    showFigures();
+}
+
+function showFigures() {
+    if (!last) return;
+    const owner = ownerOfLight(viewing.wishes.own, clients);
+    writeFigures(element("figures"), figuresOf(last.json, (performance.now() - last.at) / 1000, owner));
+}
+
+async function framed({json, payload}) {
+    const {offset, bytes} = json.views[0];
+    if (!await picture.draw(payload.subarray(offset, offset + bytes))) return;
+    const data = document.body.dataset;
+    data.frames = Number(data.frames ?? 0) + 1;
+    data.firstPicture ??= Math.round(performance.now()); // ms since the page was asked for
+    last = {json, at: performance.now()};
+    showFigures();
+}
+
+// Sliders that nobody uses show the light that the picture has, whoever changed it.
+function follow() {
+    if (viewing.scene && performance.now() - viewing.touched > followTime) panel.showLight(viewing.light);
+}
+
+async function openFile(file) {
+    try {
+        showProgress(`Sending ${file.name}`, 0);
+        const vdb = await upload(file, viewing.connection, viewing.welcome.limits,
+                                 (share) => showProgress(`Sending ${file.name}, ${Math.round(100 * share)} %`, share));
+        notices.clear("upload");
+        openScene({vdb, file: file.name});
+    } catch (error) {
+        showProgress("", null);
+        notices.set("upload", error.message);
+    }
+}
+
+async function save(encoding) {
+    const name = viewing.sceneName().replace(/\.(toml|vdb)$/, "");
+    try {
+        await savePicture(viewing.connection, encoding, view(), name);
+        notices.clear("save");
+    } catch (error) {
+        notices.set("save", error.message);
+    }
+}
+
+function reset() {
+    if (!viewing.scene) return;
+    viewing.reset();
+    orbit.goHome();
+    element("cloud").value = "all";
+    panel.show();
+    keepLink();
+}
+
+async function copyLink() {
+    const address = new URL(linkNow(), location.href).href;
+    if (await copyText(address, element("address"))) element("link").textContent = "Copied";
+    setTimeout(() => (element("link").textContent = "Copy link"), 2000);
+}
+
+function fullScreen() {
+    if (document.fullscreenElement) document.exitFullscreen();
+    else element("stage").requestFullscreen().then(() => notices.clear("full screen"),
+                                                   (error) => notices.set("full screen", error.message));
+}
+
+function fold(open) {
+    element("panel").hidden = !open;
+    element("fold").setAttribute("aria-expanded", open);
+}
+
+// Files are dropped anywhere on the page.
+function acceptDrops() {
+    const isFile = (event) => event.dataTransfer?.types.includes("Files");
+    document.addEventListener("dragover", (event) => {
+        if (!isFile(event)) return;
+        event.preventDefault();
+        element("drop").hidden = false;
+    });
+    document.addEventListener("dragleave", (event) => {
+        if (!event.relatedTarget) element("drop").hidden = true;
+    });
+    document.addEventListener("drop", (event) => {
+        element("drop").hidden = true;
+        if (!isFile(event)) return;
+        event.preventDefault();
+        if (event.dataTransfer.files[0]) openFile(event.dataTransfer.files[0]);
     });
 }
 
-// g and fog need a scene of their own; the photons begin anew.
-function loadScene() {
-    const set = [];
-    if (original?.g !== undefined && moved.has("g")) set.push(`cloud.0.phase.g=${value("g")}`);
-    const visibility = 10 ** value("fog");
-    if (visibility < clearAir) set.push(`fog.media=[{kind="homogeneous", visibility=${visibility}}]`);
-    const quality = welcome.quality ? {quality: welcome.quality} : {};
-    connection.send(types.loadScene, ++lastLoad, {name: welcome.scene, set, ...quality});
+function wire() {
+    buttons("camera", (name) => (name === "home" ? orbit.goHome() : orbit.look(cameraPresets[name])));
+    buttons("save", save);
+    element("reset").addEventListener("click", reset);
+    element("link").addEventListener("click", copyLink);
+    element("fullscreen").addEventListener("click", fullScreen);
+    element("fold").addEventListener("click", () => fold(element("panel").hidden));
+    element("open").addEventListener("click", () => element("file").click());
+    element("scene").addEventListener("change", (event) => openScene({scene: event.target.value}));
+    element("file").addEventListener("change", (event) => {
+        if (event.target.files[0]) openFile(event.target.files[0]);
+        event.target.value = "";
+    });
+    element("ask").addEventListener("submit", (event) => {
+        event.preventDefault();
+        keepToken(element("token").value);
+        viewing.connect(element("token").value);
+    });
+    // browsers keep pages for the way back, with their connections
+    window.addEventListener("pagehide", () => viewing.connection.leave());
+    window.addEventListener("pageshow", (event) => event.persisted && viewing.connection.release());
+    window.addEventListener("hashchange", () => {
+        viewing.wishes = readLink(location.hash);
+        viewing.load();
+    });
+    new ResizeObserver(() => viewing.ask()).observe(element("picture"));
+    setInterval(() => {
+        showFigures();
+        follow();
+    }, 1000);
 }
 
-function sceneLoaded(json) {
-    const first = original === null;
-    scene = json;
-    original ??= json;
-    element("message").textContent = json.warnings.join(" ");
-    if (first) {
-        orbit.frame(json.center, json.radius * 0.8, fov);
-        const [x, y, z] = json.sun.direction_to;
-        setSlider("azimuth", Math.round(Math.atan2(x, -z) * 180 / Math.PI));
-        setSlider("elevation", Math.round(Math.asin(y) * 180 / Math.PI));
-        setSlider("exposure", json.exposure);
-        if (json.extinction > 0) setSlider("extinction", Math.log10(json.extinction));
-        if (json.g !== undefined) setSlider("g", json.g);
-        showSlider("fog");
-    }
-    changed();
-}
-
-async function show({json, payload}) {
-    const view = json.views[0];
-    const bytes = payload.subarray(view.offset, view.offset + view.bytes);
-    const bitmap = await createImageBitmap(new Blob([bytes], {type: "image/jpeg"}));
-    canvas.width = bitmap.width;
-    canvas.height = bitmap.height;
-    canvas.getContext("2d").drawImage(bitmap, 0, 0);
-    document.body.dataset.frames = Number(document.body.dataset.frames ?? 0) + 1;
-    const noise = json.noise === null ? "–" : `${(100 * Math.sqrt(json.noise)).toFixed(1)} %`;
-    const reduced = json.reduction > 1 ? `, 1/${json.reduction} of the pixels' sides` : "";
-    element("figures").textContent = `${(json.photons / 1e6).toFixed(2)} M photons, noise ${noise}, ` +
-        `${Math.round(json.milliseconds.draw + json.milliseconds.encode)} ms${reduced}`;
-}
-
-function received(message) {
-    if (message.type === types.error) {
-        if (message.json.code !== "superseded") element("message").textContent = message.json.message;
-    } else if (message.type === (types.startStream | reply)) {
-        show(message);
-    } else if (message.type === (types.hello | reply)) {
-        welcome = message.json;
-        loadScene();
-    } else if (message.type === (types.loadScene | reply)) {
-        sceneLoaded(message.json);
-    }
-}
-
-const orbit = new Orbit(canvas, changed);
-const connection = new Connection(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/frames`, {
-    opened() {
-        element("status").className = "live";
-        connection.send(types.hello, hello, {version: 1, token, client: "viewer"});
-    },
-    received,
-    closed() {
-        element("status").className = "";
-        element("status").textContent = "reconnecting";
-    },
+const token = takeToken();
+const url = new URL("frames", document.baseURI);
+url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
+url.hash = "";
+const viewing = new Viewing(url.href, readLink(location.hash), {
+    notices, view, connected, tokenWanted, loading, loaded, framed, statistics,
 });
-
-for (const name of Object.keys(sliders)) {
-    element(name).addEventListener("input", () => {
-        moved.add(name);
-        showSlider(name);
-        if (name !== "g" && name !== "fog") changed();
-    });
-}
-for (const name of ["g", "fog"]) element(name).addEventListener("change", loadScene);
-new ResizeObserver(changed).observe(canvas);
-if (matchMedia("(max-width: 600px)").matches) element("panel").open = false;
+const orbit = new Orbit(element("picture"), changed);
+const panel = new Panel(viewing, () => orbit.azimuth, changed);
+if (matchMedia("(max-width: 600px), (max-height: 480px)").matches) fold(false);
+acceptDrops();
+wire();
+viewing.connect(token);

@@ -33,6 +33,7 @@ CONVERSATIONS = {
     "cancel": ("cancel", {"request": 1}, b""),
     "statistics": ("statistics", {}, b""),
     "ping": ("ping", {}, b""),
+    "scenes": ("list_scenes", {}, b""),
     "change": ("change", {"sun": {"direction_to": [0, 1, 0]}}, b""),
 }
 

@@ -81,5 +81,27 @@ TEST(Replies, StatisticsHaveTheSceneWhereThereIsOne) {
     EXPECT_EQ(json::parse(message.json)["scene"]["photons"], 400);
 }
 
+TEST(Replies, StatisticsTellHowFarALoadIs) {
+    const Message message = statisticsReply(1, {}, std::nullopt, LoadState{"preparing the cloud", 1.5});
+    EXPECT_EQ(json::parse(message.json), json::parse(R"({"loading":{"step":"preparing the cloud","seconds":1.5}})"));
+}
+
+TEST(Replies, ScenesAreAListOfNames) {
+    const Message message = scenesReply(9, {"a.toml", "é.toml"});
+    EXPECT_EQ(message.type, replyTo(MessageType::listScenes));
+    EXPECT_EQ(message.id, 9U);
+    EXPECT_EQ(json::parse(message.json), json::parse(R"({"scenes":["a.toml","é.toml"]})"));
+}
+
+TEST(Replies, ASceneTellsWhatItsFileSays) {
+    SceneDescription scene;
+    scene.originalSun.directionTo = {0.0, 1.0, 0.0};
+    scene.originalSun.irradiance = {1.0, 2.0, 3.0};
+    scene.originalClouds = {{"west", 0.5, 0.25}, {"1", 0.125, std::nullopt}};
+    EXPECT_EQ(json::parse(encodeReply(1, scene).json)["original"], json::parse(R"({
+        "sun":{"direction_to":[0.0,1.0,0.0],"irradiance":[1.0,2.0,3.0]},
+        "clouds":[{"name":"west","extinction":0.5,"g":0.25},{"name":"1","extinction":0.125}]})"));
+}
+
 }  // namespace
 }  // namespace lumulus::service

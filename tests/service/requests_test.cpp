@@ -146,9 +146,14 @@ TEST(Requests, AChangeMayNameTheCloudOfItsExtinction) {
     EXPECT_EQ(refusal(request(MessageType::frame, R"({"extinction":0.1,"cloud":0})")), "bad_request: cloud");
 }
 
+TEST(Requests, ScenesAreListedWithoutAnyField) {
+    EXPECT_EQ(refusal(request(MessageType::listScenes, "{}")), "taken");
+    EXPECT_EQ(refusal(request(MessageType::listScenes, R"({"folder":".."})")), "bad_request: folder");
+}
+
 TEST(Requests, PayloadsAndTypesThatNobodyKnowsAreRefused) {
     EXPECT_EQ(refusal(request(MessageType::frame, "{}", bytesOf("x"))), "bad_request: ");
-    for (const int type : {0, 12, 77, 0x7FFF, 0x8000, 0x8004, 0xFFFF})
+    for (const int type : {0, 15, 77, 0x7FFF, 0x8000, 0x8004, 0xFFFF})
         EXPECT_EQ(refusal(request(static_cast<MessageType>(type), "{}")), "unknown_type: ") << type;
 }
 

@@ -48,6 +48,7 @@ inline std::vector<Message> validMessages() {
         request(MessageType::statistics, "{}"),
         request(MessageType::ping, "{}"),
         request(MessageType::change, R"({"extinction":0.2})"),
+        request(MessageType::listScenes, "{}"),
     };
 }
 

@@ -18,7 +18,7 @@ MAGIC, VERSION = 0x534C4D4C, 1
 HEADER = struct.Struct("<IHHQIIQ")  # magic, version, type, id, bytes of JSON, reserved, bytes of payload
 REPLY, ERROR = 0x8000, 0x8000
 TYPES = {"hello": 1, "load_scene": 2, "upload": 3, "frame": 4, "start_stream": 5, "stop_stream": 6, "composite": 7,
-         "cancel": 8, "statistics": 9, "ping": 10, "change": 11}
+         "cancel": 8, "statistics": 9, "ping": 10, "change": 11, "list_scenes": 14}
 CHUNK = 1 << 20
 
 
@@ -136,6 +136,10 @@ class Client:
         return data
 
     # Requests
+
+    def scenes(self):
+        """Names of the scenes in the server's folder."""
+        return self.ask("list_scenes")[0]["scenes"]
 
     def load_scene(self, name=None, toml=None, **fields):
         """A scene of the server's folder, or TOML. Returns what the server says of it."""

@@ -1,0 +1,45 @@
+// Figures of the picture: what a frame's reply says of its light, in words.
+
+const count = (n) => (n >= 1e6 ? `${(n / 1e6).toFixed(2)} M` : n >= 1e3 ? `${(n / 1e3).toFixed(0)} k` : String(n));
+
+export function duration(seconds) {
+    if (seconds < 60) return `${Math.floor(seconds)} s`;
+    if (seconds < 3600) return `${Math.floor(seconds / 60)} min`;
+    return `${Math.floor(seconds / 3600)} h`;
+}
+
+// `own`: nobody else may share the light; `clients`: who see the scene, null where that is not known.
+export function ownerOfLight(own, clients) {
+    if (own) return "own";
+    if (clients === null || clients <= 1) return "shared, nobody else here";
+    return clients === 2 ? "shared with one other" : `shared with ${clients - 1} others`;
+}
+
+// [what, text] pairs for a frame's reply that came `since` seconds ago.
+export function figuresOf(json, since, owner) {
+    const {current_generations: current, generations, milliseconds, noise, reduction} = json;
+    const traced = current < generations ? `${current} of ${generations} in this light` : String(generations);
+    const reduced = reduction > 1 ? ` at 1/${reduction} size` : "";
+    return [
+        ["samples", `${count(json.photons)} photons`],
+        ["generations", traced],
+        ["noise", noise === null ? "not known yet" : `${(100 * Math.sqrt(noise)).toFixed(1)} %`],
+        ["age of light", duration(json.oldest_seconds + since)],
+        ["frame", `${Math.round(milliseconds.draw + milliseconds.encode)} ms${reduced}`],
+        ["light", owner],
+    ];
+}
+
+// Writes the pairs into a <dl>.
+export function writeFigures(list, pairs) {
+    const texts = pairs.flat();
+    if (list.children.length !== pairs.length)
+        list.replaceChildren(...pairs.map(() => {
+            const pair = document.createElement("div");
+            pair.append(document.createElement("dt"), document.createElement("dd"));
+            return pair;
+        }));
+    list.querySelectorAll("dt, dd").forEach((one, i) => {
+        if (one.textContent !== texts[i]) one.textContent = texts[i];
+    });
+}

@@ -1,0 +1,249 @@
+// One viewer's view of the server: which scene is loaded, the stream of its pictures, and changes of its light.
+import {Connection} from "./protocol.js";
+import {freshWishes} from "./link.js";
+import {lightShown} from "./light.js";
+
+const restTime = 400;          // ms without a touch after which pictures get all pixels
+const hastyMilliseconds = 150; // for a picture until then
+const pollTime = {loading: 300, watching: 2000}; // ms between questions for statistics
+const longestRetry = 30000;    // ms until a scene that failed is loaded again
+const loadKeys = ["scene", "vdb", "file", "quality", "own", "g", "fog"]; // wishes that need the scene to be loaded
+
+// `page` is told what happens: connected(isOpen), tokenWanted(), loading({name} or null), loaded(isOther), framed(message),
+// statistics(json). It has `notices`, and view(): {camera, width, height, exposure}.
+export class Viewing {
+    constructor(url, wishes, page) {
+        this.page = page;
+        this.wishes = wishes;
+        this.token = "";
+        this.welcome = null;
+        this.scene = null;  // the reply to load_scene
+        this.light = null;  // that the last frame showed
+        this.held = null;   // the wishes that loaded `scene`
+        this.loads = 0;
+        this.isLoading = false;
+        this.touched = 0;
+        this.frameAsked = false;
+        this.unsent = new Set(); // changes of light: "sun", or the cloud of an extinction
+        this.retry = 1000;
+        this.url = url;
+    }
+
+    connect(token) {
+        this.token = token;
+        if (this.connection) {
+            this.connection.release();
+            return;
+        }
+        this.connection = new Connection(this.url, {
+            opened: () => this.greet(),
+            closed: () => this.page.connected(false),
+            refused: (error) => this.page.notices.set("connection", error.message),
+            framed: (message) => this.framed(message),
+            streamFailed: (error) => this.streamFailed(error),
+        });
+        this.poll();
+    }
+
+    async greet() {
+        try {
+            const hello = {version: 1, token: this.token, client: "viewer"};
+            this.welcome = (await this.connection.ask("hello", hello)).json;
+        } catch (error) {
+            if (error.code === "unauthorized") {
+                this.connection.hold();
+                this.page.tokenWanted();
+            } else if (error.code !== "closed") {
+                this.page.notices.set("connection", error.message);
+            }
+            return;
+        }
+        this.page.connected(true);
+        if (await this.hasScene().catch(() => false)) this.load();
+    }
+
+    // Whether there is something to load: where the server has no default scene, the first of its folder.
+    async hasScene() {
+        if (this.wishes.scene || this.wishes.vdb || this.welcome.scene) return true;
+        this.wishes.scene = (await this.sceneNames())[0] ?? "";
+        if (!this.wishes.scene) this.page.notices.set("scene", "There is no scene here: drop a .vdb file.", "warning");
+        return this.wishes.scene !== "";
+    }
+
+    // Names of the scenes in the server's folder.
+    async sceneNames() {
+        return (await this.connection.ask("list_scenes", {})).json.scenes;
+    }
+
+    sceneName() {
+        return this.wishes.file || this.wishes.scene || this.welcome.scene;
+    }
+
+    sceneRequest() {
+        const {scene, vdb, quality, own, g, fog} = this.wishes;
+        const set = [...g].map(([cloud, value]) => `cloud.${cloud}.phase.g=${value}`);
+        if (fog !== null) set.push(`fog.media=[{kind="homogeneous", visibility=${fog}}]`);
+        const name = scene || (vdb ? "" : this.welcome.scene);
+        const chosen = quality ?? this.welcome.quality;
+        return {
+            ...(name ? {name} : {}),
+            ...(vdb ? {vdb} : {}),
+            ...(chosen ? {quality: chosen} : {}),
+            ...(own ? {private: true} : {}),
+            set,
+        };
+    }
+
+    // Loads the scene of the wishes; of several that are under way the last one counts. `instead`: of one that failed,
+    // whose notice stays.
+    async load(instead = false) {
+        const number = ++this.loads;
+        this.isLoading = true;
+        this.page.loading({name: this.sceneName()});
+        try {
+            const request = this.sceneRequest();
+            // a file alone stands in a scene of defaults
+            const toml = request.name ? undefined : new TextEncoder().encode("# an uploaded cloud\n");
+            const {json} = await this.connection.ask("load_scene", request, toml);
+            if (number !== this.loads) return;
+            if (!instead) this.page.notices.clear("scene");
+            this.loaded(json);
+        } catch (error) {
+            if (number === this.loads && error.code !== "closed") this.loadFailed(error);
+        } finally {
+            if (number === this.loads) {
+                this.isLoading = false;
+                this.page.loading(null);
+            }
+        }
+    }
+
+    loaded(json) {
+        const before = this.held;
+        this.scene = json;
+        this.light = lightShown(json.original, []);
+        this.held = Object.fromEntries(loadKeys.map((key) => [key, this.wishes[key]]));
+        this.held.g = new Map(this.wishes.g);
+        const {notices} = this.page;
+        notices.clear("warnings");
+        if (json.warnings.length > 0) notices.set("warnings", json.warnings.join(" "), "warning");
+        this.page.loaded(before?.scene !== this.held.scene || before?.vdb !== this.held.vdb);
+        if (this.wishes.sun) this.unsent.add("sun");
+        for (const cloud of this.wishes.extinction.keys()) this.unsent.add(cloud);
+        this.ask();
+    }
+
+    // The view stays with the scene that is there; where there is none, the server's own takes its place.
+    loadFailed(error) {
+        this.page.notices.set("scene", `${this.sceneName()}: ${error.message}`);
+        const stays = this.held ?? freshWishes();
+        const otherwise = loadKeys.some((key) => key !== "g" && this.wishes[key] !== stays[key]) || this.wishes.g.size > 0;
+        for (const key of loadKeys) this.wishes[key] = stays[key];
+        this.wishes.g = new Map(stays.g);
+        if (this.scene) this.page.loaded(false);
+        else if (otherwise && this.welcome.scene) this.load(true);
+    }
+
+    frameWishes() {
+        const hasty = performance.now() - this.touched < restTime;
+        return {
+            ...this.page.view(),
+            encoding: "jpeg",
+            quality: 88,
+            when: "change",
+            ...(hasty ? {budget: {milliseconds: hastyMilliseconds}} : {}),
+        };
+    }
+
+    // Asks for the view of now and sends changes of light, at most once a picture of the screen, and once more at rest.
+    ask() {
+        this.touched = performance.now();
+        if (this.frameAsked || !this.scene) return;
+        this.frameAsked = true;
+        requestAnimationFrame(() => {
+            this.frameAsked = false;
+            this.connection.stream(this.frameWishes());
+            this.sendLight();
+            clearTimeout(this.rest);
+            this.rest = setTimeout(() => this.connection.stream(this.frameWishes()), restTime + 20);
+        });
+    }
+
+    // Light is changed for once, not again by every frame: others who share it may change it too.
+    changeSun(angles) {
+        this.wishes.sun = angles;
+        this.unsent.add("sun");
+        this.ask();
+    }
+
+    // `cloud`: an index, or "all".
+    changeExtinction(cloud, value) {
+        if (cloud === "all") this.wishes.extinction.clear();
+        this.wishes.extinction.set(cloud, value);
+        this.unsent.add(cloud);
+        this.ask();
+    }
+
+    async sendLight() {
+        const changes = [];
+        const {sun, extinction} = this.wishes;
+        if (this.unsent.has("sun") && sun) changes.push({sun: {azimuth: sun[0], elevation: sun[1]}});
+        for (const [cloud, value] of extinction)
+            if (this.unsent.has(cloud))
+                changes.push({extinction: value, ...(cloud === "all" ? {} : {cloud})});
+        this.unsent.clear();
+        if (changes.length > 0) await this.change(changes);
+    }
+
+    async change(changes) {
+        try {
+            await Promise.all(changes.map((one) => this.connection.ask("change", one)));
+            this.page.notices.clear("light");
+        } catch (error) {
+            if (error.code !== "closed") this.page.notices.set("light", error.message);
+        }
+    }
+
+    // All wishes but the scene's name are forgotten, and the light is the one of the scene's file again.
+    reset() {
+        const {scene, vdb, file, own} = this.wishes;
+        this.wishes = Object.assign(freshWishes(), {scene, vdb, file, own});
+        const other = this.held && (this.held.g.size > 0 || this.held.fog !== null || this.held.quality !== null);
+        const {sun, clouds} = this.scene.original;
+        // clouds without extinction have none to go back to
+        const changes = [{sun}, ...clouds.map(({extinction}, cloud) => ({cloud, extinction})).filter((one) => one.extinction > 0)];
+        this.light = lightShown(this.scene.original, []);
+        this.unsent.clear();
+        if (other) this.load().then(() => this.change(changes));
+        else this.change(changes);
+        this.ask();
+    }
+
+    framed(message) {
+        this.page.notices.clear("stream");
+        this.retry = 1000;
+        if (this.isLoading) return; // it shows the scene of before
+        this.light = lightShown(this.scene.original, message.json.repeat);
+        this.page.framed(message);
+    }
+
+    // A scene that failed is gone: it is loaded again, less and less often.
+    streamFailed(error) {
+        if (error.code === "superseded" || error.code === "closed") return;
+        this.page.notices.set("stream", error.message);
+        if (error.code !== "internal" && error.code !== "no_scene") return;
+        setTimeout(() => this.load(), this.retry);
+        this.retry = Math.min(2 * this.retry, longestRetry);
+    }
+
+    async poll() {
+        if (this.welcome && this.connection.isOpen && !document.hidden) {
+            try {
+                this.page.statistics((await this.connection.ask("statistics", {})).json);
+            } catch {
+                // it comes back with the connection
+            }
+        }
+        setTimeout(() => this.poll(), this.isLoading ? pollTime.loading : pollTime.watching);
+    }
+}
