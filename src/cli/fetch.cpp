@@ -35,7 +35,7 @@ void loadScene(Client& client, const FetchOptions& options) {
     if (!wanted) return;
     const std::string name = options.scene.empty() ? json::parse(client.welcome()).value("scene", "") : options.scene;
     std::error_code ec;
-    if (name.ends_with(".toml") && std::filesystem::is_regular_file(name, ec))
+    if (name == scene::standardInput || (name.ends_with(".toml") && std::filesystem::is_regular_file(name, ec)))
         client.loadSceneText(scene::readSceneText(name), fields);
     else
         client.loadScene(name, fields);
