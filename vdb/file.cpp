@@ -2,8 +2,6 @@
 
 #include <openvdb/io/Stream.h>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -11,9 +9,11 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/file_kind.h"
 #include "base/interrupt.h"
 #include "vdb/chunks.h"
 #include "vdb/header.h"
+#include "vdb/nano.h"
 
 namespace lumulus::vdb {
 namespace {
@@ -36,9 +36,14 @@ class InterruptibleFile : public std::filebuf {
     }
 };
 
-/// Refuses a file that is no OpenVDB file before OpenVDB reads it.
-void checkStart(const fs::path& path) {
-    constexpr std::array<char, 8> magic{' ', 'B', 'D', 'V', 0, 0, 0, 0};
+[[noreturn]] void refuseForeign(const fs::path& path, std::string_view start) {
+    if (const auto foreign = foreignFile(start))
+        refuse(path, "this is not an OpenVDB file but " + std::string(foreign->name), std::string(foreign->mend));
+    refuse(path, "this is not an OpenVDB file", "give the path of a .vdb file");
+}
+
+/// Refuses what is no file with something in it, and returns its first bytes.
+std::string checkedStart(const fs::path& path) {
     std::error_code ec;
     const fs::file_status status = fs::status(path, ec);
     if (status.type() == fs::file_type::not_found) refuse(path, "there is no such file", "check the path of the cloud");
@@ -51,14 +56,15 @@ void checkStart(const fs::path& path) {
 
     std::ifstream in(path, std::ios::binary);
     if (!in) refuse(path, std::string("the file cannot be opened: ") + std::strerror(errno), "check its permissions");
-    std::array<char, magic.size()> start{};
-    in.read(start.data(), start.size());
-    if (!std::equal(start.begin(), start.begin() + in.gcount(), magic.begin())) {
-        refuse(path, "this is not an OpenVDB file", "give the path of a .vdb file");
-    }
+    return fileStart(path);
+}
+
+/// Refuses a damaged OpenVDB file, or one that is too new, before OpenVDB reads it.
+void checkHeader(const fs::path& path, std::string_view start) {
+    constexpr std::size_t versionAt = 8;
     std::uint32_t version = 0;
-    in.read(reinterpret_cast<char*>(&version), sizeof(version));
-    if (in && version > openvdb::OPENVDB_FILE_VERSION) {
+    if (start.size() >= versionAt + sizeof(version)) std::memcpy(&version, &start[versionAt], sizeof(version));
+    if (version > openvdb::OPENVDB_FILE_VERSION) {
         refuse(path, "the file is of a newer OpenVDB (format " + std::to_string(version) + ")",
                "save it as format " + std::to_string(openvdb::OPENVDB_FILE_VERSION) + " or older");
     }
@@ -72,7 +78,15 @@ void checkStart(const fs::path& path) {
 openvdb::GridPtrVec readGrids(const fs::path& path) {
     openvdb::initialize();
     guardChunks();
-    checkStart(path);
+    const std::string start = checkedStart(path);
+    if (isNanoVdb(start)) return readNanoGrids(path);
+    if (!isOpenVdb(start)) {
+        // a file that ends within the first eight bytes may have been one
+        if (std::string_view(" BDV\0\0\0\0", 8).starts_with(start))
+            refuse(path, "the file is truncated: it ends in its first bytes", "copy or write it again");
+        refuseForeign(path, start);
+    }
+    checkHeader(path, start);
     InterruptibleFile file(path);
     std::istream in(&file);
     // io::File reads truncated files without an error; a stream that throws does not. The flags tell why it threw.
@@ -101,6 +115,7 @@ openvdb::GridPtrVec readGrids(const fs::path& path) {
 }
 
 std::string valueType(const openvdb::GridBase& grid) {
+    if (const auto type = grid.getMetadata<openvdb::StringMetadata>(nanoTypeName)) return type->value();
     const std::string type = grid.valueType();
     return type == "float" && grid.saveFloatAsHalf() ? "half" : type;
 }

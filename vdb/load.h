@@ -9,9 +9,11 @@
 namespace lumulus::vdb {
 
 struct LoadOptions {
-    std::string grid;                ///< name; empty: "density" if it exists, else the first float grid
+    std::string grid;                ///< name in any case, `density[1]` for the second of that name; empty: see load
     double memoryBudgetMiB = 512.0;  ///< for the dense volume at 2 bytes a voxel (R16F on the GPU)
     int maxExtent = 2048;            ///< voxels along a side, with the ring (a limit of 3D textures)
+    bool clamp = false;              ///< values that are no densities become 0, however large they are
+    std::string keys = "cloud.0";    ///< where the cloud's keys stand, for messages
 };
 
 struct LoadResult {
@@ -22,14 +24,21 @@ struct LoadResult {
     std::vector<std::string> warnings;  ///< warnings for a person, one line each
 };
 
-/// Reads a float (or half) grid of densities from an OpenVDB file into a dense volume.
-/// The field is that of the box around the active voxels, inactive values and background in it included, cropped to its
-/// nonzero part, with one ring of zeros around. A grid that is too large for the budget or the extent is averaged over
-/// boxes of n³ voxels, with n as small as possible. This preserves its mass, and memory follows the size of the result,
-/// not the full resolution. A grid without density gives a volume with `maximum` 0 and a warning. Throws InputError
-/// for a file that cannot be read (missing, no OpenVDB, truncated, damaged), a grid that is not there, of another type
-/// or a level set, a grid whose transform is not affine or is singular, and for values that are no densities (negative,
-/// infinite, not a number; the one with the lexicographically smallest index coordinate is named). Throws Error where
+/// Reads a grid of densities (float, half or double) from an OpenVDB or NanoVDB file into a dense volume.
+///
+/// Without a name the grid is chosen by the names of all: density, then smoke, cloud, extinction, lwc, qc and the like,
+/// then names that say nothing; temperature, velocity and the like only where there is no other. A warning tells what
+/// was taken unless it is called "density".
+///
+/// Only active voxels take part. The field is cropped to its nonzero part, with one ring of zeros around; what weighs
+/// less than a millionth of the mass and lies apart is left out with a warning. Negatives down to −1 % of the maximum
+/// become 0 with a warning. A grid that is too large for the budget or the extent is averaged over boxes of n³ voxels,
+/// with n as small as possible. This preserves its mass, and memory follows the size of the result, not the full
+/// resolution. A grid without density gives a volume with `maximum` 0 and a warning.
+///
+/// Throws InputError for a file that cannot be read (missing, of another kind, truncated, damaged), a grid that is not
+/// there, of another type or a level set, a grid whose transform is not affine or is singular, and, without `clamp`,
+/// for values that are no densities: infinite, not a number, or lower than −1 % of the maximum. Throws Error where
 /// interrupted.
 LoadResult load(const std::filesystem::path& path, const LoadOptions& options);
 

@@ -1,8 +1,6 @@
 #include "vdb/sparse_field.h"
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,58 +11,6 @@
 
 namespace lumulus::vdb {
 namespace {
-
-IndexBox intersect(const IndexBox& a, const IndexBox& b) {
-    return {glm::max(a.minimum, b.minimum), glm::min(a.maximum, b.maximum)};
-}
-
-void include(IndexBox& box, const IndexBox& other) {
-    box = box.empty() ? other : IndexBox{glm::min(box.minimum, other.minimum), glm::max(box.maximum, other.maximum)};
-}
-
-float valueAt(const Block& block, const glm::ivec3& at) {
-    if (block.leaf == nullptr) return block.tile;
-    const glm::ivec3 local = at - block.box.minimum;
-    return block.leaf[(local.x * Block::leafEdge + local.y) * Block::leafEdge + local.z];
-}
-
-/// Calls `visit(coordinate, value)` in lexicographic order. 64-bit counters: a box may end at the largest int.
-template <typename Visit>
-void forEachVoxel(const Block& block, const IndexBox& box, const Visit& visit) {
-    for (std::int64_t x = box.minimum.x; x <= box.maximum.x; ++x) {
-        for (std::int64_t y = box.minimum.y; y <= box.maximum.y; ++y) {
-            for (std::int64_t z = box.minimum.z; z <= box.maximum.z; ++z) {
-                const glm::ivec3 at(glm::i64vec3(x, y, z));
-                visit(at, valueAt(block, at));
-            }
-        }
-    }
-}
-
-void note(Survey& survey, const IndexBox& box, float value) {
-    if (!(value >= 0.0F) || std::isinf(value)) {
-        const auto key = [](const glm::ivec3& c) { return std::tuple(c.x, c.y, c.z); };
-        if (!survey.bad || key(box.minimum) < key(survey.bad->at)) survey.bad = BadValue{box.minimum, value};
-    } else if (value > 0.0F) {
-        include(survey.occupied, box);
-    }
-}
-
-void surveyBlock(Survey& survey, const Block& block, const IndexBox& bounds) {
-    const IndexBox box = intersect(block.box, bounds);
-    if (box.empty()) return;
-    if (block.leaf == nullptr) {
-        note(survey, box, block.tile);
-    } else {
-        forEachVoxel(block, box, [&](const glm::ivec3& at, float value) { note(survey, {at, at}, value); });
-    }
-}
-
-Survey merge(Survey a, const Survey& b) {
-    if (!b.occupied.empty()) include(a.occupied, b.occupied);
-    if (b.bad) note(a, {b.bad->at, b.bad->at}, b.bad->value);
-    return a;
-}
 
 /// The blocks that touch each coarse slice: blocks[first[s]] … blocks[first[s + 1] − 1], in a fixed order.
 struct SliceLists {
@@ -137,15 +83,9 @@ class Rasteriser {
     /// Full resolution. Returns the largest value.
     float copySlice(Volume& volume, int slice) const {
         float largest = 0.0F;
-        if (field_.background > 0.0F) {
-            for (int y = 1; y <= size_.y; ++y) {
-                std::fill_n(volume.density.begin() + static_cast<std::ptrdiff_t>(volume.index(1, y, slice + 1)),
-                            size_.x, field_.background);
-            }
-            largest = field_.background;
-        }
         forEachBlock(slice, [&](const Block& block, const IndexBox& box) {
-            forEachVoxel(block, box, [&](const glm::ivec3& at, float value) {
+            forEachVoxel(box, [&](const glm::ivec3& at) {
+                const float value = block.valueAt(at);
                 const glm::ivec3 local(glm::i64vec3(at) - glm::i64vec3(crop_.minimum) + std::int64_t{1});
                 volume.density[volume.index(local.x, local.y, local.z)] = value;
                 largest = std::max(largest, value);
@@ -154,18 +94,12 @@ class Rasteriser {
         return largest;
     }
 
-    /// Box averages, summed in double: background everywhere, then each block's difference to it.
+    /// Box averages, summed in double.
     float averageSlice(Volume& volume, int slice) const {
         std::vector<double> sums(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y), 0.0);
-        const auto addBox = [&](const IndexBox& box, double value) { addConstant(sums, box, value); };
-        if (field_.background > 0.0F) {
-            IndexBox here = crop_;
-            std::tie(here.minimum.z, here.maximum.z) = fine(slice, 2);
-            addBox(here, field_.background);
-        }
         forEachBlock(slice, [&](const Block& block, const IndexBox& box) {
             if (block.leaf == nullptr) {
-                addBox(box, static_cast<double>(block.tile) - field_.background);
+                addConstant(sums, box, static_cast<double>(block.tile));
             } else {
                 addLeaf(sums, block, box);
             }
@@ -174,8 +108,7 @@ class Rasteriser {
         float largest = 0.0F;
         for (int y = 0; y < size_.y; ++y) {
             for (int x = 0; x < size_.x; ++x) {
-                // rounding may leave a cell of zeros a little below zero
-                const auto average = static_cast<float>(std::max(0.0, sums[cell(x, y)] / (edge * edge * edge)));
+                const auto average = static_cast<float>(sums[cell(x, y)] / (edge * edge * edge));
                 volume.density[volume.index(x + 1, y + 1, slice + 1)] = average;
                 largest = std::max(largest, average);
             }
@@ -204,7 +137,7 @@ class Rasteriser {
             for (std::int64_t y = box.minimum.y; y <= box.maximum.y; ++y) {
                 double row = 0.0;
                 for (std::int64_t z = box.minimum.z; z <= box.maximum.z; ++z) {
-                    row += static_cast<double>(valueAt(block, glm::ivec3(glm::i64vec3(x, y, z)))) - field_.background;
+                    row += static_cast<double>(block.valueAt(glm::ivec3(glm::i64vec3(x, y, z))));
                 }
                 sums[cell(column, coarse(static_cast<int>(y), 1))] += row;
             }
@@ -221,20 +154,6 @@ class Rasteriser {
 };
 
 }  // namespace
-
-Survey surveyField(const SparseField& field) {
-    Survey survey = tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, field.blocks.size(), 64), Survey{},
-        [&](const tbb::blocked_range<std::size_t>& range, Survey part) {
-            stopIfInterrupted();
-            for (std::size_t i = range.begin(); i != range.end(); ++i) surveyBlock(part, field.blocks[i], field.bounds);
-            return part;
-        },
-        merge);
-    // voxels outside of all blocks hold the background, so the whole box is occupied
-    if (field.background > 0.0F) survey.occupied = field.bounds;
-    return survey;
-}
 
 glm::ivec3 coarseSize(const glm::i64vec3& extent, std::int64_t n) {
     return glm::ivec3((extent + (n - std::int64_t{1})) / n);

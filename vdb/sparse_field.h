@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <optional>
 #include <vector>
 
 #include "vdb/volume.h"
@@ -23,31 +22,39 @@ struct IndexBox {
 struct Block {
     static constexpr int leafEdge = 8;
     IndexBox box;
-    const float* leaf = nullptr;  ///< 8³ values, z fastest; null for a tile
+    float* leaf = nullptr;  ///< 8³ values, z fastest, owned by the tree; null for a tile
     float tile = 0.0F;
+
+    float valueAt(const glm::ivec3& at) const {
+        if (leaf == nullptr) return tile;
+        const glm::ivec3 local = at - box.minimum;
+        return leaf[(local.x * leafEdge + local.y) * leafEdge + local.z];
+    }
 };
 
-/// A field of blocks that do not overlap. Voxels outside of all blocks have the background's value. Only voxels in
-/// `bounds` count.
+/// A field of blocks that do not overlap. Voxels outside of all blocks are 0.
 struct SparseField {
     std::vector<Block> blocks;
-    float background = 0.0F;
-    IndexBox bounds;
 };
 
-/// A value that is no density, at an index coordinate.
-struct BadValue {
-    glm::ivec3 at{0};
-    float value = 0.0F;
-};
+/// The box that both boxes share.
+inline IndexBox intersect(const IndexBox& a, const IndexBox& b) {
+    return {glm::max(a.minimum, b.minimum), glm::min(a.maximum, b.maximum)};
+}
 
-struct Survey {
-    IndexBox occupied;            ///< around all nonzero values; empty if there are none
-    std::optional<BadValue> bad;  ///< the one with the lexicographically smallest coordinate
-};
+/// Extends `box` so that it holds `other`, which is not empty.
+inline void include(IndexBox& box, const IndexBox& other) {
+    box = box.empty() ? other : IndexBox{glm::min(box.minimum, other.minimum), glm::max(box.maximum, other.maximum)};
+}
 
-/// Visits every value within the bounds once. Errors: Error if interrupted.
-Survey surveyField(const SparseField& field);
+/// Calls `visit(coordinate)` for the voxels of a box in lexicographic order.
+template <typename Visit>
+void forEachVoxel(const IndexBox& box, const Visit& visit) {
+    // 64-bit counters: a box may end at the largest int
+    for (std::int64_t x = box.minimum.x; x <= box.maximum.x; ++x)
+        for (std::int64_t y = box.minimum.y; y <= box.maximum.y; ++y)
+            for (std::int64_t z = box.minimum.z; z <= box.maximum.z; ++z) visit(glm::ivec3(glm::i64vec3(x, y, z)));
+}
 
 /// The smallest n for which boxes of n³ voxels, with a ring, fit both limits; 0 if even one voxel does not.
 /// `budget`: bytes, at 2 a voxel. `maxExtent`: voxels along a side.

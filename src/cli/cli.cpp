@@ -30,6 +30,8 @@ namespace {
 /// Runs the subcommand of the command line; empty until the command line is parsed.
 using Action = std::function<void()>;
 
+constexpr const char* sceneHelp = "Scene file (TOML), an OpenVDB or NanoVDB file, or - for standard input";
+
 /// Refuses empty text, which usually comes from an unset shell variable and is no wish for the default.
 CLI::Validator notEmpty() {
     return {[](const std::string& text) { return text.empty() ? "give it a value" : ""; }, "TEXT"};
@@ -47,7 +49,7 @@ CLI::Option* addDevice(CLI::App& command, std::string& device) {
 
 void addRender(CLI::App& app, RenderOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("render", "Render a scene to pictures");
-    command->add_option("scene", options.scene, "Scene file (TOML)")->required();
+    command->add_option("scene", options.scene, sceneHelp)->required();
     command->add_option("-o,--output", options.outputs, "Picture: .exr (linear float layers) or .png; may repeat")
         ->required()
         ->allow_extra_args(false);
@@ -92,8 +94,8 @@ void addCloud(CLI::App& app, CloudOptions& options, Action& action) {
 }
 
 void addInfo(CLI::App& app, InfoOptions& options, Action& action) {
-    CLI::App* command = app.add_subcommand("info", "Show the grids of an OpenVDB file, or the devices");
-    command->add_option("file", options.file, "OpenVDB file");
+    CLI::App* command = app.add_subcommand("info", "Show the grids of an OpenVDB or NanoVDB file, or the devices");
+    command->add_option("file", options.file, "OpenVDB or NanoVDB file");
     command->add_flag("--devices", options.devices, "List the Vulkan devices");
     command->add_flag("--scene-format", options.sceneFormat, "Show all keys of scene files, as Markdown");
     command->add_flag("--json", options.json, "As JSON");
@@ -103,7 +105,7 @@ void addInfo(CLI::App& app, InfoOptions& options, Action& action) {
 
 void addReference(CLI::App& app, ReferenceOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("reference", "Render a scene without bias, by path tracing on the CPU");
-    command->add_option("scene", options.scene, "Scene file (TOML)")->required();
+    command->add_option("scene", options.scene, sceneHelp)->required();
     command->add_option("-o,--output", options.output, "Picture (.exr); a file .sums beside it holds the exact sums")
         ->required();
     const CLI::Range positive(1e-3, 1e9);
@@ -193,7 +195,7 @@ void addSlab(CLI::App& app, SlabOptions& options, Action& action) {
 
 void addBench(CLI::App& app, BenchOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("bench", "Measure error against run time of render and of the path tracer");
-    command->add_option("scene", options.scene, "Scene file (TOML)")->required();
+    command->add_option("scene", options.scene, sceneHelp)->required();
     command->add_option("--reference", options.reference, "Reference (.exr), of the scene's size")->required();
     command->add_option("-o,--output", options.output, "Folder for error.csv, error.svg and error.png")->required();
     command->add_option("--seconds", options.seconds, "Budgets in seconds without warm-up (default: 0.1,0.3,1,3,10)")

@@ -84,7 +84,8 @@ void loadScene(Client& client, const FetchOptions& options) {
     if (!wanted) return;
     const std::string name = options.scene.empty() ? json::parse(client.welcome()).value("scene", "") : options.scene;
     std::error_code ec;
-    const bool local = name.ends_with(".toml") && std::filesystem::is_regular_file(name, ec);
+    const bool local =
+        name == scene::standardInput || (name.ends_with(".toml") && std::filesystem::is_regular_file(name, ec));
     try {
         if (local)
             client.loadSceneText(scene::readSceneText(name), fields);

@@ -54,46 +54,100 @@ Json vectorJson(const auto& v) {
     return Json::array({v.x, v.y, v.z});
 }
 
+/// Rows of the matrix that acts on columns (x, y, z, 1), as `cloud.transform` in a scene.
+Json matrixJson(const vdb::Affine& affine) {
+    Json rows = Json::array();
+    for (int row = 0; row < 3; ++row)
+        rows.push_back({affine.linear[0][row], affine.linear[1][row], affine.linear[2][row], affine.translation[row]});
+    rows.push_back({0.0, 0.0, 0.0, 1.0});
+    return rows;
+}
+
+Json gridJson(const vdb::GridInfo& grid) {
+    Json entry{{"name", grid.name},
+               {"type", grid.type},
+               {"class", grid.gridClass},
+               {"taken", grid.taken},
+               {"affine", grid.affine},
+               {"active_voxels", grid.activeVoxels},
+               {"active_minimum", vectorJson(grid.activeMinimum)},
+               {"active_maximum", vectorJson(grid.activeMaximum)},
+               {"voxel_size", vectorJson(grid.voxelSize)}};
+    if (grid.place) {
+        entry["transform"] = matrixJson(grid.place->toWorld);
+        entry["world_minimum"] = vectorJson(grid.place->minimum);
+        entry["world_maximum"] = vectorJson(grid.place->maximum);
+        entry["mirrored"] = grid.place->mirrored;
+        entry["rotated"] = grid.place->rotated;
+    }
+    if (grid.values) {
+        entry["values"] = {{"minimum", grid.values->minimum},
+                           {"maximum", grid.values->maximum},
+                           {"mean", grid.values->mean},
+                           {"background", grid.values->background},
+                           {"not_finite", grid.values->notFinite}};
+    }
+    if (grid.thickness) {
+        entry["optical_thickness"] = {{"extinction", 1.0},
+                                      {"largest", vectorJson(grid.thickness->largest)},
+                                      {"mean", vectorJson(grid.thickness->mean)}};
+    }
+    return entry;
+}
+
 std::string gridsJson(const std::filesystem::path& file, const std::vector<vdb::GridInfo>& grids) {
     Json list = Json::array();
-    for (const vdb::GridInfo& grid : grids) {
-        Json entry{{"name", grid.name},
-                   {"type", grid.type},
-                   {"class", grid.gridClass},
-                   {"affine", grid.affine},
-                   {"active_voxels", grid.activeVoxels},
-                   {"active_minimum", vectorJson(grid.activeMinimum)},
-                   {"active_maximum", vectorJson(grid.activeMaximum)},
-                   {"voxel_size", vectorJson(grid.voxelSize)}};
-        if (grid.values) {
-            entry["values"] = {{"minimum", grid.values->minimum},
-                               {"maximum", grid.values->maximum},
-                               {"mean", grid.values->mean},
-                               {"background", grid.values->background}};
-        }
-        list.push_back(entry);
-    }
+    for (const vdb::GridInfo& grid : grids) list.push_back(gridJson(grid));
     return dumped({{"file", file.string()}, {"grids", list}});
+}
+
+std::string triple(const auto& v, const char* between) {
+    return fmt::format("{:.9g}{}{:.9g}{}{:.9g}", static_cast<double>(v.x), between, static_cast<double>(v.y), between,
+                       static_cast<double>(v.z));
+}
+
+std::string rounded(const glm::dvec3& v) {
+    return fmt::format("{:.4g} x {:.4g} x {:.4g}", v.x, v.y, v.z);
+}
+
+std::string placeText(const vdb::Place& place) {
+    std::string text =
+        fmt::format("  metres    from {} to {}\n", triple(place.minimum, " "), triple(place.maximum, " "));
+    if (place.mirrored || place.rotated)
+        text += fmt::format("  axes      {}{}{}: x of the grid goes along {}, y along {}, z along {}\n",
+                            place.mirrored ? "mirrored" : "", place.mirrored && place.rotated ? " and " : "",
+                            place.rotated ? "rotated" : "", triple(place.toWorld.linear[0], " "),
+                            triple(place.toWorld.linear[1], " "), triple(place.toWorld.linear[2], " "));
+    return text;
+}
+
+std::string gridText(const vdb::GridInfo& grid) {
+    const glm::ivec3 extent = grid.activeMaximum - grid.activeMinimum + 1;
+    std::string text = fmt::format("{}: {}, {}{}{}\n", shown(grid.name), shown(grid.type), grid.gridClass,
+                                   grid.affine ? "" : ", transform not affine",
+                                   grid.taken ? ", taken where a scene names no grid" : "");
+    text += fmt::format("  voxels    {} active, in {} x {} x {}\n", grid.activeVoxels, extent.x, extent.y, extent.z);
+    text +=
+        fmt::format("  indices   from {} to {}\n", triple(grid.activeMinimum, " "), triple(grid.activeMaximum, " "));
+    if (grid.place) text += placeText(*grid.place);
+    text += fmt::format("  voxel     {} m\n", triple(grid.voxelSize, " x "));
+    if (grid.values) {
+        text += fmt::format("  values    {:.6g} to {:.6g}, mean {:.6g}, background {:.6g}\n", grid.values->minimum,
+                            grid.values->maximum, grid.values->mean, grid.values->background);
+        if (grid.values->notFinite > 0)
+            text += fmt::format("            and {} that are infinite or not a number\n", grid.values->notFinite);
+    }
+    if (grid.thickness)
+        text += fmt::format(
+            "  optical   thickness {} at most, {} on average, along the axes of the grid at extinction 1/m\n",
+            rounded(grid.thickness->largest), rounded(grid.thickness->mean));
+    return text;
 }
 
 std::string gridsText(const std::vector<vdb::GridInfo>& grids) {
     if (grids.empty()) return "no grids\n";
     std::string text;
-    for (const vdb::GridInfo& grid : grids) {
-        const glm::ivec3 extent = grid.activeMaximum - grid.activeMinimum + 1;
-        text += fmt::format("{}: {}, {}{}\n", shown(grid.name), shown(grid.type), grid.gridClass,
-                            grid.affine ? "" : ", transform not affine");
-        text +=
-            fmt::format("  voxels    {} active, in {} x {} x {}\n", grid.activeVoxels, extent.x, extent.y, extent.z);
-        text += fmt::format("  from      {} {} {} to {} {} {}\n", grid.activeMinimum.x, grid.activeMinimum.y,
-                            grid.activeMinimum.z, grid.activeMaximum.x, grid.activeMaximum.y, grid.activeMaximum.z);
-        text += fmt::format("  voxel     {:.6g} x {:.6g} x {:.6g} m\n", grid.voxelSize.x, grid.voxelSize.y,
-                            grid.voxelSize.z);
-        if (grid.values) {
-            text += fmt::format("  values    {:.6g} to {:.6g}, mean {:.6g}, background {:.6g}\n", grid.values->minimum,
-                                grid.values->maximum, grid.values->mean, grid.values->background);
-        }
-    }
+    for (const vdb::GridInfo& grid : grids) text += gridText(grid);
     return text;
 }
 

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -14,12 +16,14 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/version.h"
+#include "cli/clouds_told.h"
 #include "cli/output.h"
 #include "cli/stats_json.h"
 #include "reference/film_file.h"
 #include "reference/render.h"
 #include "scene/load.h"
 #include "volume/load.h"
+#include "volume/summary.h"
 
 namespace lumulus::cli {
 namespace {
@@ -50,10 +54,12 @@ void checkOptions(const ReferenceOptions& options) {
     checkPlaces(places);
 }
 
-reference::Renderer rendererOf(const ReferenceOptions& options, const scene::Scene& scene) {
+reference::Renderer rendererOf(const ReferenceOptions& options, const scene::Scene& scene,
+                               std::vector<CloudSummary>& summaries) {
     const auto majorant = options.localMajorant ? reference::Majorant::local : reference::Majorant::global;
     const CloudVolumes clouds = loadClouds(scene);
-    for (const std::string& warning : clouds.warnings) logWarning(warning);
+    summaries = summarise(scene, clouds);
+    tellClouds(summaries, clouds.warnings, options.quiet);
     return {scene, clouds.placed(), majorant, scene.photonMap.seed};
 }
 
@@ -103,7 +109,8 @@ void renderPasses(const ReferenceOptions& options, reference::Renderer& renderer
     renderer.addSeconds(secondsSince(start));
 }
 
-void write(const ReferenceOptions& options, const scene::Scene& scene, const reference::Renderer& renderer) {
+void write(const ReferenceOptions& options, const scene::Scene& scene, const reference::Renderer& renderer,
+           std::span<const CloudSummary> clouds) {
     const reference::Film& film = renderer.film();
     LayeredImage image = renderer.picture();
     image.attributes["scene"] = scene.source;
@@ -113,6 +120,7 @@ void write(const ReferenceOptions& options, const scene::Scene& scene, const ref
     image.attributes["majorant"] = options.localMajorant ? "local" : "global";
     image.attributes["samples"] = std::to_string(film.samples);
     image.attributes["lost"] = std::to_string(film.lost);
+    noteGrids(image, clouds);
     // the sums come first: an interruption between the two files loses no work
     reference::writeFilm(reference::sumsBeside(options.output), film, renderer.fingerprint());
     writeExr(options.output, image);
@@ -123,18 +131,20 @@ void write(const ReferenceOptions& options, const scene::Scene& scene, const ref
 void runReference(const ReferenceOptions& options) {
     checkOptions(options);
     const scene::Scene scene = sceneOf(options);
-    reference::Renderer renderer = rendererOf(options, scene);
+    std::vector<CloudSummary> clouds;
+    reference::Renderer renderer = rendererOf(options, scene, clouds);
     if (options.resume) resume(options, renderer);
     renderPasses(options, renderer);
     const std::uint64_t samples = renderer.film().samples;
     if (samples == 0) throw Error("interrupted before the first sample of every pixel", "", "nothing was written");
-    write(options, scene, renderer);
+    write(options, scene, renderer, clouds);
     writeStatistics(options.stats, statisticsOf(renderer.film()));
     if (renderer.film().lost > 0)
         logWarning(fmt::format("{} paths were lost: they reached the limit of scattering events{}",
                                renderer.film().lost,
                                scene.fog.media.empty() ? "" : " (a smaller fog.sky_distance bounds the fog)"));
     if (interrupted()) logWarning(fmt::format("interrupted: the picture has {} samples per pixel", samples));
+    tellDefaults(scene, options.quiet);
 }
 
 }  // namespace lumulus::cli

@@ -14,6 +14,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/version.h"
+#include "cli/clouds_told.h"
 #include "cli/output.h"
 #include "cli/stats_json.h"
 #include "progressive/bias.h"
@@ -122,6 +123,8 @@ void runRender(const RenderOptions& options) {
     RendererOptions how{options.device, options.validate, steps.reporter()};
     how.progressive = progressive(options);
     Renderer renderer(scene, how);
+    const std::vector<std::string> told = renderer.statistics().warnings;
+    tellClouds(renderer.statistics().clouds, told, options.quiet);
     std::optional<ProgressiveStatistics> reached;
     if (progressive(options))
         reached = traceProgressively(renderer, options, scene, start, steps);
@@ -131,13 +134,14 @@ void runRender(const RenderOptions& options) {
     LayeredImage image = renderer.draw();
     stopIfInterrupted();
     const Statistics statistics = renderer.statistics();
-    for (const std::string& warning : statistics.warnings) logWarning(warning);
+    for (const std::string& warning : std::span(statistics.warnings).subspan(told.size())) logWarning(warning);
 
     image.attributes["scene"] = scene.source;
     image.attributes["seed"] = std::to_string(scene.photonMap.seed);
     image.attributes["software"] = std::string("lumulus ") + version;
     image.attributes["device"] = statistics.device;
     image.attributes["samples"] = std::to_string(statistics.photons);
+    noteGrids(image, statistics.clouds);
 
     const Clock::time_point writing = Clock::now();
     writeOutputs(options, image, scene.image, steps);
@@ -145,6 +149,7 @@ void runRender(const RenderOptions& options) {
     const double seconds = secondsSince(start);
     if (reached) tellReached(options, statistics, *reached, seconds);
     writeStatistics(options.stats, statisticsJson(statistics, reached, writeSeconds, seconds));
+    tellDefaults(scene, options.quiet);
     requireNoMessages(options.validate, statistics);
 }
 

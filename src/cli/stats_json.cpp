@@ -15,8 +15,16 @@ std::string statisticsJson(const Statistics& s, const std::optional<ProgressiveS
                            double writeSeconds, double totalSeconds) {
     Json passes = Json::array();
     for (const PassTime& pass : s.passes) passes.push_back({{"name", pass.name}, {"ms", pass.milliseconds}});
+    Json clouds = Json::array();
+    for (const CloudSummary& cloud : s.clouds) {
+        clouds.push_back({{"name", cloud.name},
+                          {"file", cloud.file.empty() ? Json() : Json(cloud.file)},
+                          {"grid", cloud.grid},
+                          {"optical_thickness", {{"largest", cloud.largestThickness}, {"mean", cloud.meanThickness}}}});
+    }
     Json json{
         {"device", s.device},
+        {"clouds", clouds},
         {"seconds",
          {{"load", s.loadSeconds},
           {"prepare", s.prepareSeconds},

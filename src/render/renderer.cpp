@@ -62,6 +62,7 @@ Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
     WorldReport report;
     s.world.emplace(makeWorld(s.context, scene, {options.keepRing, options.progressive, s.report, s.check}, report));
     s.statistics.warnings = std::move(report.warnings);
+    s.statistics.clouds = std::move(report.clouds);
     s.statistics.loadSeconds = report.loadSeconds;
     const Stopwatch preparing;
     s.makePainters(scene);

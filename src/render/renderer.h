@@ -13,6 +13,7 @@
 #include "base/progress.h"
 #include "scene/scene.h"
 #include "view/view.h"
+#include "volume/summary.h"
 
 namespace lumulus {
 
@@ -38,9 +39,10 @@ struct Statistics {
     std::uint64_t absorbed = 0, escaped = 0, lost = 0;  ///< photons by their end
     std::uint64_t saturated = 0;                        ///< coefficients that met the fixed-point limit
     std::uint64_t collectors = 0;
-    std::uint64_t gpuBytes = 0;      ///< of buffers and images
-    std::uint64_t gpuBytesHeld = 0;  ///< allocated from the driver for them
-    std::vector<PassTime> passes;    ///< sums over all generations, in the order of the frame
+    std::uint64_t gpuBytes = 0;        ///< of buffers and images
+    std::uint64_t gpuBytesHeld = 0;    ///< allocated from the driver for them
+    std::vector<CloudSummary> clouds;  ///< of the scene, in its order
+    std::vector<PassTime> passes;      ///< sums over all generations, in the order of the frame
     std::vector<std::string> warnings;
     std::vector<std::string> validationMessages;
 };

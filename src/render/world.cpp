@@ -98,6 +98,7 @@ class Maker {
 CloudVolumes Maker::load() {
     CloudVolumes volumes = loadClouds(scene_, options_.report);
     report_.warnings = std::move(volumes.warnings);
+    report_.clouds = summarise(scene_, volumes);
     std::vector<Bounds> bounds;
     for (const vdb::PlacedVolume& placed : volumes.placed()) {
         const std::size_t number = world_.instances.size();

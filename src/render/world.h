@@ -10,6 +10,7 @@
 #include "light/instance_light.h"
 #include "light/light_set.h"
 #include "scene/scene.h"
+#include "volume/summary.h"
 
 namespace lumulus {
 
@@ -33,6 +34,7 @@ struct World {
 /// What making a world tells of itself.
 struct WorldReport {
     double loadSeconds = 0.0, prepareSeconds = 0.0;
+    std::vector<CloudSummary> clouds;
     std::vector<std::string> warnings;
 };
 

@@ -122,11 +122,17 @@ std::vector<Key> cloudKeys() {
               "letter first; at most 64 of them, and not the name of a key.",
               [](Draft& d, const Value& v) { cloudOf(d).name = v.text; }),
         other("cloud.vdb", Type::path, "(none: a procedural cloud)",
-              "Name of an OpenVDB file, instead of `procedural`.",
+              "Name of an OpenVDB or NanoVDB file, instead of `procedural`.",
               [](Draft& d, const Value& v) { cloudOf(d).vdb = (d.folder / v.text).lexically_normal(); }),
         other("cloud.grid", Type::text, "\"\"",
-              "Name of the grid. Empty means `density` if it exists, or else the first float grid.",
+              "Name of the grid, in any case; `density[1]` is the second of that name. Empty means `density`, or else "
+              "a grid named as smoke, cloud, extinction or water content, or else the first whose name is not that of "
+              "a temperature, velocity or the like. `lumulus info` shows which is taken.",
               [](Draft& d, const Value& v) { cloudOf(d).grid = v.text; }),
+        other("cloud.clamp", Type::boolean, "false",
+              "Negative, infinite and undefined values of the grid become 0. Without it they are errors, but for "
+              "negatives of at most 1 % of the maximum, which become 0 with a warning.",
+              [](Draft& d, const Value& v) { cloudOf(d).clamp = v.boolean; }),
         choice("cloud.procedural", {"cumulus", "stratus", "cirrus", "sphere", "slab"}, "\"cumulus\"",
                "Kind of a procedural cloud, as for `lumulus cloud`.",
                [](Draft& d, const Value& v) { cloudOf(d).procedural = v.text; }),

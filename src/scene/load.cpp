@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <system_error>
 #include <vector>
 
 #include "base/error.h"
+#include "base/file_kind.h"
 #include "scene/read_value.h"
 #include "scene/settings.h"
 #include "scene/suggest.h"
@@ -77,9 +81,54 @@ std::vector<std::string> workingPaths(Sources from, std::size_t wrong) {
     return working;
 }
 
+/// Refuses text that is too long or is no text of a scene.
+void checkText(std::string_view text, const std::string& source) {
+    if (isOpenVdb(text) || isNanoVdb(text))
+        throw InputError("this is an OpenVDB file, not a scene", source, "name it in a scene: [[cloud]] vdb = …");
+    if (const auto foreign = foreignFile(text))
+        throw InputError(fmt::format("this is {}, not a scene", foreign->name), source, std::string(foreign->mend));
+    if (text.size() > maximumBytes)
+        throw InputError("the scene is larger than 1 MiB", source, "give a scene file (TOML)");
+}
+
+std::string readStandardInput() {
+    std::string text(maximumBytes + 1, '\0');
+    text.resize(std::fread(text.data(), 1, text.size(), stdin));
+    if (std::ferror(stdin) != 0)
+        throw InputError("cannot read the scene: " + std::generic_category().message(errno), "standard input",
+                         "give it a scene, or the name of a file");
+    checkText(text, "standard input");
+    return text;
+}
+
+bool hasCloudSuffix(const std::filesystem::path& path) {
+    std::string suffix = path.extension().string();
+    std::ranges::transform(suffix, suffix.begin(),
+                           [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+    return suffix == ".vdb" || suffix == ".nvdb";
+}
+
+/// Whether a file holds grids, or should by its name.
+bool isCloudFile(const std::filesystem::path& path) {
+    const std::string start = fileStart(path);
+    return isOpenVdb(start) || isNanoVdb(start) || (!start.empty() && hasCloudSuffix(path));
+}
+
+/// The text of a scene that shows a file of clouds beside it.
+std::string sceneOf(const std::filesystem::path& cloud) {
+    std::string name;
+    for (const char c : cloud.filename().string()) {
+        const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+        if (c == '"' || c == '\\') name += '\\';
+        name += control ? fmt::format("\\u{:04X}", static_cast<unsigned>(c)) : std::string(1, c);
+    }
+    return fmt::format("[[cloud]]\nvdb = \"{}\"\n", name);
+}
+
 }  // namespace
 
 std::string readSceneText(const std::filesystem::path& path) {
+    if (path == standardInput) return readStandardInput();
     std::error_code ec;
     if (std::filesystem::is_directory(path, ec)) {
         throw InputError("the scene is a folder", path.string(), "give a scene file");
@@ -93,15 +142,15 @@ std::string readSceneText(const std::filesystem::path& path) {
     file.read(text.data(), static_cast<std::streamsize>(text.size()));
     if (file.bad()) throw InputError("cannot read the scene", path.string(), "check the disk");
     text.resize(static_cast<std::size_t>(file.gcount()));
-    if (text.size() > maximumBytes) {
-        throw InputError("the scene is larger than 1 MiB", path.string(), "give a scene file (TOML)");
-    }
+    checkText(text, path.string());
     return text;
 }
 
 Scene loadScene(const std::filesystem::path& path, std::span<const std::string> overrides,
                 std::optional<Quality> quality) {
-    return parseScene(readSceneText(path), path.string(), overrides, quality);
+    if (path != standardInput && isCloudFile(path)) return parseScene(sceneOf(path), path.string(), overrides, quality);
+    const std::string source = path == standardInput ? "standard input" : path.string();
+    return parseScene(readSceneText(path), source, overrides, quality);
 }
 
 Scene parseScene(std::string_view toml, const std::string& sourceName, std::span<const std::string> overrides,

@@ -11,8 +11,9 @@
 
 namespace lumulus::scene {
 
-/// Reads a scene file. `overrides` are the strings of --set (`section.key=value`). A preset changes only keys that the
-/// file leaves out. Errors: InputError that names file, line and key.
+/// Reads a scene file, standard input for "-". A file of clouds (OpenVDB, NanoVDB) stands for a scene of it alone with
+/// every key at its default. `overrides` are the strings of --set (`section.key=value`). A preset changes only keys
+/// that the file leaves out. Errors: InputError that names file, line and key.
 Scene loadScene(const std::filesystem::path& path, std::span<const std::string> overrides = {},
                 std::optional<Quality> quality = std::nullopt);
 
@@ -22,7 +23,11 @@ Scene loadScene(const std::filesystem::path& path, std::span<const std::string> 
 Scene parseScene(std::string_view toml, const std::string& sourceName, std::span<const std::string> overrides = {},
                  std::optional<Quality> quality = std::nullopt, std::span<const std::filesystem::path> folders = {});
 
-/// Reads the text of a scene file. Errors: InputError if it cannot be read or is larger than 1 MiB.
+/// The name of standard input in place of a scene file.
+inline constexpr const char* standardInput = "-";
+
+/// Reads the text of a scene file, standard input for "-". Errors: InputError if it cannot be read, is larger than
+/// 1 MiB or of another kind (OpenVDB, an archive, a picture).
 std::string readSceneText(const std::filesystem::path& path);
 
 }  // namespace lumulus::scene

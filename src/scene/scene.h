@@ -72,7 +72,8 @@ struct Phase {
 struct Cloud {
     std::string name;           ///< empty: its index, see nameOf
     std::filesystem::path vdb;  ///< empty: procedural
-    std::string grid;           ///< empty: the first float grid, "density" preferred
+    std::string grid;           ///< any case, `density[1]` for the second; empty: chosen by the names of all
+    bool clamp = false;         ///< values of the grid that are no densities become 0
     std::string procedural = "cumulus";
     int resolution = 192;  ///< voxels along the longest side of a procedural cloud
     std::uint64_t seed = 1;

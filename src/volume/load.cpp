@@ -7,6 +7,7 @@
 #include "vdb/load.h"
 #include "vdb/procedural.h"
 #include "vdb/transform.h"
+#include "volume/summary.h"
 
 namespace lumulus {
 namespace {
@@ -17,7 +18,7 @@ constexpr double bytesPerMiB = 1048576.0;
 auto sourceOf(const scene::Cloud& cloud) {
     const bool file = !cloud.vdb.empty();
     return std::tuple(cloud.vdb, file ? cloud.grid : std::string(), file ? std::string() : cloud.procedural,
-                      file ? 0 : cloud.resolution, file ? 0 : cloud.seed);
+                      file ? 0 : cloud.resolution, file ? 0 : cloud.seed, file && cloud.clamp);
 }
 
 /// A field as its source gives it, and how far its memory can be told.
@@ -38,10 +39,13 @@ double sizeOf(const vdb::Volume& volume) {
     return 2.0 * static_cast<double>(volume.density.size()) / bytesPerMiB;
 }
 
-vdb::LoadResult load(const scene::Cloud& cloud, double memoryBudget, const Report& report) {
+vdb::LoadResult load(const scene::Cloud& cloud, std::size_t index, double memoryBudget, const Report& report) {
     if (!cloud.vdb.empty()) {
         report("loading the cloud", 0, 1);
-        vdb::LoadResult loaded = vdb::load(cloud.vdb, {.grid = cloud.grid, .memoryBudgetMiB = memoryBudget});
+        vdb::LoadResult loaded = vdb::load(cloud.vdb, {.grid = cloud.grid,
+                                                       .memoryBudgetMiB = memoryBudget,
+                                                       .clamp = cloud.clamp,
+                                                       .keys = "cloud." + std::to_string(index)});
         report("loading the cloud", 1, 1);
         return loaded;
     }
@@ -70,7 +74,7 @@ void loadAll(std::vector<Source>& sources, double budget, const Report& report) 
     double held = 0.0, total = 0.0, left = budget;
     std::vector<double> wanted;
     for (Source& source : sources) {
-        source.loaded = load(*source.cloud, budget, report);
+        source.loaded = load(*source.cloud, source.index, budget, report);
         const double size = sizeOf(source.loaded.volume);
         total += source.loaded.wantedMiB;
         if (source.isFile()) {
@@ -88,7 +92,7 @@ void loadAll(std::vector<Source>& sources, double budget, const Report& report) 
         const bool dropped = source.loaded.volume.density.empty();
         if (!source.isFile() || (!dropped && sizeOf(source.loaded.volume) <= share)) continue;
         source.loaded.volume.density = {};
-        source.loaded = load(*source.cloud, share, report);
+        source.loaded = load(*source.cloud, source.index, share, report);
     }
 }
 
@@ -119,7 +123,14 @@ CloudVolumes loadClouds(const scene::Scene& scene, const Report& report) {
     CloudVolumes result;
     for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
         const std::string where = "cloud." + std::to_string(i) + ".transform";
-        result.clouds.push_back({volumeOf[i], sources[volumeOf[i]].placeUnder(scene.clouds[i].transform, where)});
+        result.clouds.push_back({volumeOf[i], sources[volumeOf[i]].placeUnder(scene.clouds[i].transform, where), {}});
+    }
+    std::vector<vdb::ColumnSums> sums;
+    for (const Source& source : sources) sums.push_back(vdb::columnSums(source.loaded.volume));
+    for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
+        CloudVolumes::Cloud& cloud = result.clouds[i];
+        const double extinction = scene.clouds[i].extinction * scene.clouds[i].densityScale;
+        cloud.thickness = vdb::opticalThickness(sums[cloud.volume], cloud.toWorld, extinction);
     }
     for (Source& source : sources) {
         for (const std::string& warning : source.loaded.warnings) {
@@ -128,6 +139,7 @@ CloudVolumes loadClouds(const scene::Scene& scene, const Report& report) {
         }
         result.volumes.push_back(std::move(source.loaded.volume));
     }
+    for (std::string& warning : warningsOf(summarise(scene, result))) result.warnings.push_back(std::move(warning));
     return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "scene/scene.h"
+#include "vdb/optical_thickness.h"
 #include "vdb/placed_volume.h"
 
 namespace lumulus {
@@ -17,6 +18,7 @@ struct CloudVolumes {
     struct Cloud {
         std::size_t volume = 0;  ///< index into `volumes`
         vdb::Affine toWorld;     ///< voxel coordinates → metres, with the scene's `transform`
+        vdb::OpticalThickness thickness;
     };
 
     std::vector<vdb::Volume> volumes;   ///< at their own places, without the scene's `transform`

@@ -97,6 +97,22 @@ openvdb::Vec3SGrid::Ptr vectors() {
     return grid;
 }
 
+/// A ball of another name, its densities multiplied.
+FloatGrid::Ptr ballNamed(const std::string& name, float factor = 1.0F) {
+    auto grid = ball();
+    for (auto value = grid->beginValueOn(); value; ++value) value.setValue(*value * factor);
+    grid->setName(name);
+    return grid;
+}
+
+/// Flame and heat of other shapes before the smoke, which is a ball.
+void writeFire(const std::filesystem::path& path) {
+    auto flame = cube([](int, int, int) { return 5.0F; });
+    flame->setName("flame");
+    openvdb::io::File file(path.string());
+    file.write(openvdb::GridPtrVec{flame, ballNamed("heat", 300.0F), ballNamed("Smoke")});
+}
+
 void write(const std::filesystem::path& path, const openvdb::GridBase::Ptr& grid) {
     openvdb::io::File file(path.string());
     file.write(openvdb::GridPtrVec{grid});
@@ -122,5 +138,8 @@ int main(int argc, char** argv) {
     write(folder / "negative.vdb", ballWith(-0.5F));
     write(folder / "level-set.vdb", levelSet());
     write(folder / "vectors.vdb", vectors());
+    write(folder / "thin.vdb", ballNamed("density", 1e-5F));
+    write(folder / "small-negative.vdb", ballWith(-1e-7F));
+    writeFire(folder / "fire.vdb");
     return 0;
 }

@@ -69,6 +69,7 @@ constexpr const char* everyKey = R"(
         [[cloud]]
         procedural = "sphere"
         grid = "density"
+        clamp = true
         resolution = 32
         seed = 9
         transform = [[0, -2, 0, 10], [2, 0, 0, 20], [0, 0, 2, 30]]
@@ -272,6 +273,38 @@ TEST(Overrides, AdviceWorks) {
     EXPECT_EQ(adviceFor("", "width=-1"), "");
     EXPECT_THAT(messageOf("", {"cloud.veil.nonsense=1"}), Not(HasSubstr("write")));
     EXPECT_THAT(messageOf("", {"cloud.phase.nonsense=1"}), Not(HasSubstr("write")));
+}
+
+TEST(SceneFile, AFileOfCloudsStandsForASceneOfIt) {
+    const TemporaryFolder folder;
+    const std::string openVdb(" BDV\0\0\0\0 and more", 17);
+    for (const char* name : {"a.vdb", "no suffix", "quote\" and \\ back.nvdb"}) {
+        test::writeAll(folder / name, openVdb);
+        const Scene scene = loadScene(folder / name, Overrides{"cloud.0.extinction=3"});
+        ASSERT_EQ(scene.clouds.size(), 1U);
+        EXPECT_EQ(scene.clouds[0].vdb, folder / name);
+        EXPECT_EQ(scene.clouds[0].extinction, 3.0);
+        EXPECT_EQ(scene.image.width, 1280);
+        EXPECT_EQ(scene.source, (folder / name).string());
+    }
+    test::writeAll(folder / "packed.VDB", "\x1f\x8b");  // the loader says what it is
+    EXPECT_EQ(loadScene(folder / "packed.VDB").clouds[0].vdb, folder / "packed.VDB");
+}
+
+TEST(SceneFile, OtherKindsOfFilesAreNamed) {
+    const TemporaryFolder folder;
+    const auto message = [&](const std::string& text) -> std::string {
+        test::writeAll(folder / "a.toml", text);
+        try {
+            readSceneText(folder / "a.toml");
+        } catch (const InputError& e) {
+            return e.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(message(std::string(" BDV\0\0\0\0", 8)), HasSubstr("an OpenVDB file, not a scene"));
+    EXPECT_THAT(message("\x1f\x8b" + std::string(1 << 21, 'x')), HasSubstr("a gzip archive, not a scene"));
+    EXPECT_THAT(message(std::string(1 << 21, 'x')), HasSubstr("larger than 1 MiB"));
 }
 
 TEST(Quality, PresetsStandBelowTheFile) {

@@ -4,6 +4,11 @@ target_compile_definitions(lumulus_test_rico PRIVATE LUMULUS_SOURCE_DIR="${CMAKE
 target_link_libraries(lumulus_test_rico PUBLIC lumulus_vdb PRIVATE lumulus_options)
 
 lumulus_test(vdb_load_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_load_test.cpp LINK lumulus_test_rico OpenVDB::openvdb)
+lumulus_test(vdb_choice_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_choice_test.cpp LINK lumulus_vdb OpenVDB::openvdb)
+lumulus_test(vdb_values_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_values_test.cpp
+                                     ${CMAKE_CURRENT_LIST_DIR}/vdb_place_test.cpp LINK lumulus_vdb OpenVDB::openvdb)
+lumulus_test(vdb_nano_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_nano_test.cpp LINK lumulus_vdb OpenVDB::openvdb
+                                                                                    Blosc::blosc TBB::tbb ZLIB::ZLIB)
 lumulus_test(vdb_refusal_test
              SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_refusal_test.cpp ${CMAKE_CURRENT_LIST_DIR}/vdb_throwing_new.cpp
              LINK lumulus_vdb OpenVDB::openvdb)

@@ -1,0 +1,66 @@
+#include "volume/summary.h"
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "scene/scene.h"
+#include "volume/load.h"
+
+namespace lumulus {
+namespace {
+
+std::string shown(const std::string& name) {
+    constexpr std::size_t longest = 120;
+    return shortened(oneLine(name), longest);
+}
+
+}  // namespace
+
+std::vector<CloudSummary> summarise(const scene::Scene& scene, const CloudVolumes& volumes) {
+    std::vector<CloudSummary> clouds;
+    for (std::size_t i = 0; i < volumes.clouds.size(); ++i) {
+        const CloudVolumes::Cloud& cloud = volumes.clouds[i];
+        clouds.push_back({scene::nameOf(scene, i), scene.clouds[i].vdb.string(), volumes.volumes[cloud.volume].name,
+                          cloud.thickness.largestOfAll(), cloud.thickness.meanOfAll()});
+    }
+    return clouds;
+}
+
+std::string lineOf(const CloudSummary& cloud) {
+    const std::string source = cloud.file.empty()
+                                   ? fmt::format("procedural {}", cloud.grid)
+                                   : fmt::format("grid \"{}\" of {}", shown(cloud.grid), shown(cloud.file));
+    return fmt::format("cloud {}: {}, optical thickness at most {:.3g}, {:.3g} on average", cloud.name, source,
+                       cloud.largestThickness, cloud.meanThickness);
+}
+
+std::string gridNames(std::span<const CloudSummary> clouds) {
+    if (clouds.size() == 1) return clouds.front().grid;
+    std::string text;
+    for (const CloudSummary& cloud : clouds)
+        text += fmt::format("{}cloud.{}: {}", text.empty() ? "" : ", ", cloud.name, cloud.grid);
+    return text;
+}
+
+std::vector<std::string> warningsOf(std::span<const CloudSummary> clouds) {
+    constexpr double visible = 0.01, faint = 0.1, penetrable = 1000.0;
+    std::vector<std::string> warnings;
+    for (const CloudSummary& cloud : clouds) {
+        const double most = cloud.largestThickness, mean = cloud.meanThickness;
+        if (most > 0.0 && mean < visible && most < faint)
+            warnings.push_back(fmt::format(
+                "the optical thickness of cloud.{0} is {1:.2g} on average and {2:.2g} at most: next to nothing will be "
+                "seen; raise cloud.{0}.density_scale or cloud.{0}.extinction, or enlarge it by cloud.{0}.transform "
+                "(lengths are metres)",
+                cloud.name, mean, most));
+        if (most > penetrable)
+            warnings.push_back(fmt::format(
+                "the optical thickness of cloud.{0} is up to {1:.2g}: next to no light gets in, and tracing takes "
+                "long; lower cloud.{0}.density_scale or cloud.{0}.extinction, or shrink it by cloud.{0}.transform "
+                "(lengths are metres)",
+                cloud.name, most));
+    }
+    return warnings;
+}
+
+}  // namespace lumulus

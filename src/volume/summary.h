@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lumulus::scene {
+struct Scene;
+}
+
+namespace lumulus {
+
+struct CloudVolumes;
+
+/// What a picture shows of one cloud of the scene.
+struct CloudSummary {
+    std::string name;               ///< as nameOf() gives it
+    std::string file;               ///< empty for a procedural cloud
+    std::string grid;               ///< name of the grid that was taken, or the kind of a procedural cloud
+    double largestThickness = 0.0;  ///< optical thickness, the largest along the axes of the grid …
+    double meanThickness = 0.0;     ///< … and its mean over the columns of voxels that meet the cloud
+};
+
+/// One for each cloud of the scene, in its order.
+std::vector<CloudSummary> summarise(const scene::Scene& scene, const CloudVolumes& volumes);
+
+/// A line for a person: name, grid, file and optical thickness.
+std::string lineOf(const CloudSummary& cloud);
+
+/// The grids of all clouds for the header of a picture: "density", or "cloud.0: density, cloud.veil: smoke".
+std::string gridNames(std::span<const CloudSummary> clouds);
+
+/// Warnings for clouds of which nothing will be seen (an optical thickness below 0.01 on average and below 0.1
+/// everywhere) and for those into which next to no light gets (above 1,000 anywhere), one line each with the keys to
+/// change. Clouds without any extinction are taken to be wanted so.
+std::vector<std::string> warningsOf(std::span<const CloudSummary> clouds);
+
+}  // namespace lumulus
