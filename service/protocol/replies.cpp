@@ -1,5 +1,7 @@
 #include "service/protocol/replies.h"
 
+#include <cmath>
+
 #include "base/version.h"
 #include "service/protocol/error_reply.h"
 
@@ -18,7 +20,8 @@ json bodyOf(const SceneDescription& scene) {
               {"width", scene.image.width},
               {"height", scene.image.height},
               {"exposure", scene.image.exposure},
-              {"sun", {{"direction_to", listOf(scene.sunDirection)}, {"irradiance", listOf(scene.sunIrradiance)}}},
+              {"sun",
+               {{"direction_to", listOf(scene.light.sunDirection)}, {"irradiance", listOf(scene.light.sunIrradiance)}}},
               {"seed", scene.seed},
               {"generations", scene.generations},
               {"collectors", scene.collectors},
@@ -26,7 +29,7 @@ json bodyOf(const SceneDescription& scene) {
               {"warnings", scene.warnings},
               {"center", listOf(scene.centre)},
               {"radius", scene.radius}};
-    if (scene.extinction) body["extinction"] = *scene.extinction;
+    if (scene.light.extinction) body["extinction"] = *scene.light.extinction;
     if (scene.asymmetry) body["g"] = *scene.asymmetry;
     return body;
 }
@@ -37,7 +40,10 @@ json bodyOf(const SceneState& scene) {
             {"current_generations", scene.photons.current},
             {"generations_wanted", scene.generationsWanted},
             {"photons", scene.photons.photons()},
-            {"trace_milliseconds", scene.traceMilliseconds}};
+            {"trace_milliseconds", scene.traceMilliseconds},
+            {"sun",
+             {{"direction_to", listOf(scene.light.sunDirection)}, {"irradiance", listOf(scene.light.sunIrradiance)}}},
+            {"extinction", scene.light.extinction ? json(*scene.light.extinction) : json()}};
 }
 
 json bodyOf(const SceneShown& shown) {
@@ -119,6 +125,23 @@ Message statisticsReply(std::uint64_t id, const std::vector<std::pair<std::strin
 
 Message uploadReply(std::uint64_t id, std::uint64_t received, bool complete) {
     return {replyTo(MessageType::upload), id, json{{"received", received}, {"complete", complete}}.dump(), {}};
+}
+
+Message uploadsReply(std::uint64_t id, const std::vector<StoredUpload>& uploads, std::uint64_t mostBytes) {
+    json list = json::array();
+    std::uint64_t bytes = 0;
+    for (const StoredUpload& upload : uploads) {
+        list.push_back({{"hash", "sha256:" + upload.hash},
+                        {"bytes", upload.bytes},
+                        {"seconds_left", std::floor(upload.secondsLeft)}});
+        bytes += upload.bytes;
+    }
+    const json body{{"uploads", std::move(list)}, {"bytes", bytes}, {"most_bytes", mostBytes}};
+    return {replyTo(MessageType::listUploads), id, body.dump(), {}};
+}
+
+Message uploadDeletedReply(std::uint64_t id, bool found) {
+    return {replyTo(MessageType::deleteUpload), id, json{{"found", found}}.dump(), {}};
 }
 
 bool budgetMet(const Budget& budget, const FrameResult& result, double totalMilliseconds) {
