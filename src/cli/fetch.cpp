@@ -68,6 +68,14 @@ std::string named(std::string text, const std::string& file) {
     return text;
 }
 
+/// The server knows an uploaded file by its hash, its owner by its name.
+std::string withFileName(std::string text, const std::string& uploaded, const FetchOptions& options) {
+    const std::string name = "upload " + uploaded;
+    const std::size_t at = uploaded.empty() ? std::string::npos : text.find(name);
+    if (at != std::string::npos) text.replace(at, name.size(), options.vdb.string());
+    return text;
+}
+
 /// A local scene that the server refused. Its message names the place in the text; otherwise the file is named.
 [[noreturn]] void rethrowScene(const ClientError& error, const std::string& file, const FetchOptions& options) {
     const std::string text = named(error.what(), file);
@@ -79,7 +87,8 @@ void loadScene(Client& client, const FetchOptions& options) {
     std::map<std::string, std::string> fields;
     if (!options.overrides.empty()) fields["set"] = json(options.overrides).dump();
     if (!options.quality.empty()) fields["quality"] = json(options.quality).dump();
-    if (!options.vdb.empty()) fields["vdb"] = json(upload(client, options)).dump();
+    const std::string uploaded = options.vdb.empty() ? std::string() : upload(client, options);
+    if (!uploaded.empty()) fields["vdb"] = json(uploaded).dump();
     const bool wanted = !options.scene.empty() || !fields.empty();
     if (!wanted) return;
     const std::string name = options.scene.empty() ? json::parse(client.welcome()).value("scene", "") : options.scene;
@@ -92,6 +101,8 @@ void loadScene(Client& client, const FetchOptions& options) {
         else
             client.loadScene(name, fields);
     } catch (const ClientError& e) {
+        const std::string text = withFileName(e.what(), uploaded, options);
+        if (text != e.what()) rethrow(e, text, "", "give another file, or other settings", options);
         if (local) rethrowScene(e, name, options);
         rethrow(e, e.what(), name, "give a scene of the server, or a local file that ends with .toml", options);
     }
