@@ -99,6 +99,7 @@ void readLimits(ConfigReader& reader, Config& config) {
     reader.count("limits.queued_frames", render.queuedFrames, 1, 1024);
     reader.count("limits.streams", render.streams, 1, 1024);
     reader.count("limits.scenes", render.scenes, 1, 64);
+    reader.count("limits.own_lights", render.ownLights, 0, 256);
     reader.count("limits.unsent_frames", render.unsentFrames, 1, 64);
     reader.count("limits.views", render.requests.views, 1, 256);
     reader.count("limits.pixels", render.requests.pixels, 1, 1U << 25U);
@@ -160,6 +161,7 @@ Config loadConfig(const fs::path& path) {
     readListen(reader, config);
     readScenes(reader, config);
     if (const auto token = reader.path("security.token_file")) config.token = readToken(*token);
+    config.render.sharedLight = reader.boolean("security.shared_light").value_or(false);
     readSizes(reader, config);
     readLimits(reader, config);
     reader.finish();

@@ -41,6 +41,13 @@ std::optional<std::string> ConfigReader::text(const std::string& key) {
     return std::string(*node.value<std::string_view>());
 }
 
+std::optional<bool> ConfigReader::boolean(const std::string& key) {
+    const auto node = find(key);
+    if (!node) return std::nullopt;
+    if (!node.is_boolean()) throw InputError("this must be true or false", where(key), "give true or false");
+    return *node.value<bool>();
+}
+
 std::optional<fs::path> ConfigReader::path(const std::string& key) {
     const auto given = text(key);
     if (!given || given->empty()) return std::nullopt;

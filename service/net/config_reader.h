@@ -22,6 +22,7 @@ class ConfigReader {
     std::string where(const std::string& key) const;
 
     std::optional<std::string> text(const std::string& key);
+    std::optional<bool> boolean(const std::string& key);
     /// A path, made absolute; absent where the text is empty.
     std::optional<std::filesystem::path> path(const std::string& key);
     void number(const std::string& key, double& value, double low, double high);

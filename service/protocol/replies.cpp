@@ -59,6 +59,7 @@ json bodyOf(const SceneState& scene) {
             {"trace_milliseconds", scene.traceMilliseconds},
             {"sun", sunOf(scene.light.sunDirection, scene.light.sunIrradiance)},
             {"extinction", scene.light.extinction ? json(*scene.light.extinction) : json()},
+            {"own", scene.own},
             {"clients", scene.clients}};
 }
 

@@ -13,9 +13,11 @@ namespace lumulus::service {
 class PendingChanges {
   public:
     struct Change {
-        SlotPointer slot;
+        ClientId client = 0;
+        SlotPointer slot;  ///< the scene that the client saw when it asked
         LightChange light;
         std::optional<std::size_t> cloud;  ///< whose extinction changes; none: all
+        bool toOwn = false;                ///< the client gets light of its own by it
     };
 
     void add(Change change) { changes_.push_back(std::move(change)); }

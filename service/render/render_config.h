@@ -13,6 +13,7 @@ struct RenderLimits {
     std::uint32_t streams = 16;      ///< of one client
     std::uint32_t unsentFrames = 2;  ///< to one client, before it gets no more
     std::uint32_t scenes = 3;        ///< held in memory at once
+    std::uint32_t ownLights = 8;     ///< of clients that change the light of a scene which others see too
     double sceneMemory = 2048.0;     ///< MiB for density and for photons of one scene
     std::uint64_t photonsPerGeneration = 4'000'000;
     double generationSeconds = 30.0;  ///< for one generation or one picture; a scene that takes longer is dropped
@@ -32,6 +33,7 @@ struct RenderConfig {
     std::filesystem::path uploads;  ///< folder, made where it does not exist
     std::string defaultScene;       ///< name in `scenes`; empty: clients load one
     std::string quality;            ///< of the default scene: "", draft, interactive or final
+    bool sharedLight = false;       ///< whether a client changes the light of all who see the scene
     std::string device;             ///< name (part of it) or index of the Vulkan device; empty: the best one
     RenderLimits limits;
 };

@@ -14,19 +14,19 @@ namespace lumulus::service {
 namespace {
 
 const Failure shuttingDown{"shutting_down", "the service is shutting down", {}};
-constexpr const char* noMemory = "there is no memory for so many pixels now: ask for fewer, or later";
 
 }  // namespace
 
 RenderService::RenderService(const RenderConfig& config, Instruments& instruments, Outlets outlets)
     : config_(config),
       metrics_(instruments.metrics),
-      log_(instruments.log),
-      memory_(instruments.memory),
       outlets_(std::move(outlets)),
       scheduler_({config.limits.queuedFrames, config.limits.streams, config.limits.unsentFrames}),
-      scenes_(config.limits.scenes),
+      scenes_(config.limits.scenes, config.limits.ownLights),
       encoding_(outlets_.mostEncoding),
+      lights_(config, instruments, {mutex_, scenes_, [this](const SceneSlot& slot) { step(slot); }}),
+      maker_(instruments, {mutex_, scheduler_, scenes_, changes_, encoding_, desk_, lights_, closing_, outlets_.reply,
+                           outlets_.encode}),
       desk_(config, instruments, deskHost()) {
     renderThread_ = std::thread([this] { renderLoop(); });
 }
@@ -44,7 +44,13 @@ SceneDesk::Host RenderService::deskHost() {
                 wake_.notify_one();
             },
             outlets_.begun,
-            [this] { heartbeat_.step(); }};
+            [this](const SceneSlot& slot) { step(slot); }};
+}
+
+/// On the render thread, between the steps of work on a scene.
+void RenderService::step(const SceneSlot& slot) {
+    heartbeat_.step();
+    maker_.interject(slot);
 }
 
 RenderService::~RenderService() {
@@ -70,6 +76,7 @@ void RenderService::removeClient(ClientId client) {
         scheduler_.removeClient(client);
         scenes_.removeClient(client);
         desk_.removeClient(client);
+        lights_.removeClient(client);
         metrics_.set(Metrics::streamsRunning, static_cast<std::int64_t>(scheduler_.streams()));
     }
     wake_.notify_one();
@@ -100,7 +107,8 @@ void RenderService::answer(ClientId client, std::uint64_t id, Change change) {
     if (!slot) throw RequestError("no_scene", "load a scene first");
     std::optional<std::size_t> cloud;
     if (change.cloud) cloud = slot->findCloud(*change.cloud);
-    changes_.add({slot, std::move(change.light), cloud});
+    const bool toOwn = lights_.promise(client, slot, change.light, cloud);
+    changes_.add({client, slot, std::move(change.light), cloud, toOwn});
     outlets_.reply(client, id, LightChanged{});
 }
 
@@ -113,10 +121,12 @@ void RenderService::submit(ClientId client, std::uint64_t id, RenderRequest requ
         if (auto* load = std::get_if<LoadScene>(&request)) {
             desk_.submit({client, id, std::move(*load), held});
         } else if (auto* frame = std::get_if<FrameRequest>(&request)) {
+            lights_.promise(client, scenes_.shownTo(client), frame->light, std::nullopt);
             submitFrame({client, id, workOf(std::move(*frame)), held, now});
         } else if (auto* composite = std::get_if<Composite>(&request)) {
             submitFrame({client, id, workOf(std::move(*composite)), held, now});
         } else if (auto* start = std::get_if<StartStream>(&request)) {
+            lights_.promise(client, scenes_.shownTo(client), start->frame.light, std::nullopt);
             scheduler_.startStream(client, id, std::move(*start), now);
         } else if (const auto* stop = std::get_if<StopStream>(&request)) {
             answer(client, id, *stop);
@@ -183,9 +193,12 @@ void RenderService::renderLoop() {
         SlotPointer toRefine;
         bool starving = false;
         heartbeat_.step();
-        applyChanges();
+        maker_.applyChanges();
+        std::vector<SlotPointer> retired;  // end after the lock
         {
             std::unique_lock lock(mutex_);
+            retired = scenes_.takeRetired();
+            if (!retired.empty()) continue;
             rendering_ = false;
             idle_.notify_all();
             if (stopping_) return;
@@ -210,134 +223,10 @@ void RenderService::renderLoop() {
             rendering_ = true;
         }
         if (job)
-            make(std::move(*job));
+            maker_.make(std::move(*job));
         else
-            refine(toRefine, starving || !toRefine->wantsSun());
+            maker_.refine(toRefine, starving || !toRefine->wantsSun());
     }
-}
-
-void RenderService::refine(const SlotPointer& slot, bool generation) {
-    try {
-        if (generation) {
-            slot->traceGeneration();
-            metrics_.add(Metrics::generationsTraced);
-        } else {
-            slot->sharpenSun();
-        }
-        const std::lock_guard lock(mutex_);
-        scenes_.publish(*slot);
-    } catch (const std::exception& e) {
-        dropSlot(slot, "generation_failed", e.what());
-    }
-}
-
-/// On the render thread, without the lock: changes take their time.
-void RenderService::applyChanges() {
-    std::vector<PendingChanges::Change> changes;
-    std::vector<EncodingDesk::Cost> costs;
-    {
-        const std::lock_guard lock(mutex_);
-        changes = changes_.takeAll();
-        costs = encoding_.takeCosts();
-    }
-    for (const auto& [slot, light, cloud] : changes) {
-        try {
-            slot->apply(light, cloud);
-            const std::lock_guard lock(mutex_);
-            scenes_.publish(*slot);
-        } catch (const RequestError& e) {
-            log_.event("warning", "change_refused", {{"scene", slot->scene().source}, {"message", e.what()}});
-        }
-    }
-    for (const EncodingDesk::Cost& cost : costs)
-        if (const SlotPointer slot = cost.slot.lock())
-            slot->noteEncoded(cost.encoding, cost.report.milliseconds, cost.report.pixels);
-}
-
-/// Errors: RequestError where the budget does not have it.
-MemoryBudget::Share RenderService::roomFor(std::uint64_t bytes) {
-    auto share = memory_.take(MemoryBudget::frames, bytes);
-    if (!share) throw RequestError("busy", noMemory);
-    return std::move(*share);
-}
-
-void RenderService::make(Job job) {
-    SlotPointer slot;
-    bool closing = false;
-    {
-        const std::lock_guard lock(mutex_);
-        slot = scenes_.shownTo(job.client);
-        closing = closing_;
-    }
-    try {
-        if (job.cancelled->load()) throw Cancelled{};
-        if (!slot && closing) throw RequestError(shuttingDown.code, shuttingDown.text);
-        if (!slot) throw RequestError("no_scene", "load a scene first");
-        if (const auto* composite = std::get_if<Composite>(job.work.get())) {
-            MemoryBudget::Share memory = roomFor(SceneSlot::pictureBytes(composite->pixels.size() / 16));
-            handOver(job, slot->composite(job, *composite), slot, std::move(memory));
-        } else
-            makeFrame(job, std::get<FrameRequest>(*job.work), slot);
-    } catch (const RequestError& e) {
-        fail(job, {e.code, e.what(), e.where});
-    } catch (const Cancelled&) {
-        fail(job, {"cancelled", "cancelled on request", {}});
-    } catch (const std::exception& e) {
-        fail(job, {"internal", e.what(), {}});
-        dropSlot(slot, "frame_failed", e.what());
-    }
-}
-
-void RenderService::makeFrame(Job job, const FrameRequest& frame, const SlotPointer& slot) {
-    // once: of two lights that clients ask for alternately, neither would ever see all its generations
-    if (!job.begun) slot->apply(frame.light);
-    job.begun = true;
-    bool hurry = false;
-    {
-        const std::lock_guard lock(mutex_);
-        hurry = closing_;
-    }
-    if (!hurry && slot->needsGeneration(job, frame)) {
-        refine(slot, true);
-        bool kept = false;
-        {
-            const std::lock_guard lock(mutex_);
-            kept = scenes_.shownTo(job.client) == slot && scheduler_.putBack(job);
-        }
-        if (!kept) leaveOut(job);
-        return;
-    }
-    // a stream without a budget refines as it goes
-    const bool refines = job.stream && !frame.budget.milliseconds && !frame.budget.photons && slot->wantsGeneration();
-    if (refines && !hurry) refine(slot, true);
-    auto memory = memory_.take(MemoryBudget::frames, slot->frameBytes(frame));
-    if (!memory && job.stream) return leaveOut(job);
-    if (!memory) throw RequestError("busy", noMemory);
-    FrameResult drawn = slot->draw(job, frame);
-    {
-        const std::lock_guard lock(mutex_);
-        scenes_.publish(*slot);
-    }
-    handOver(job, std::move(drawn), slot, std::move(*memory));
-}
-
-void RenderService::leaveOut(const Job& job) {
-    if (!job.stream) {
-        fail(job, {"superseded", "a newer frame of the channel takes its place, or its scene is gone", {}});
-        return;
-    }
-    const std::lock_guard lock(mutex_);
-    scheduler_.leaveOut(job);
-}
-
-void RenderService::handOver(const Job& job, std::variant<FrameResult, CompositeResult> result, const SlotPointer& slot,
-                             MemoryBudget::Share memory) {
-    {
-        const std::lock_guard lock(mutex_);
-        if (!scheduler_.drawn(job)) return;
-        encoding_.begin();
-    }
-    outlets_.encode({job, std::move(result), slot, std::move(memory)});
 }
 
 void RenderService::finish(const FrameTask& task, const EncodingReport& report, const std::function<void()>& send) {
@@ -372,25 +261,6 @@ void RenderService::failEncoding(const FrameTask& task, const Failure& failure) 
         outlets_.reply(job.client, job.id, failure);
     }
     metrics_.add(Metrics::requestsRefused);
-}
-
-void RenderService::fail(const Job& job, const Failure& failure) {
-    {
-        const std::lock_guard lock(mutex_);
-        if (!scheduler_.done(job)) return;
-        if (job.stream) scheduler_.stopStream(job.client, job.id);
-        outlets_.reply(job.client, job.id, failure);
-    }
-    metrics_.add(Metrics::requestsRefused);
-}
-
-/// A renderer in which something failed is of no more use; its clients have to load again.
-void RenderService::dropSlot(const SlotPointer& slot, const char* event, const std::string& why) {
-    if (!slot || interrupted()) return;  // the service ends
-    log_.event("error", event, {{"scene", slot->scene().source}, {"message", why}});
-    const std::lock_guard lock(mutex_);
-    scenes_.drop(slot);
-    metrics_.set(Metrics::scenesHeld, static_cast<std::int64_t>(scenes_.size()));
 }
 
 }  // namespace lumulus::service

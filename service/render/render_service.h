@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "service/render/encoding_desk.h"
+#include "service/render/frame_maker.h"
 #include "service/render/frame_task.h"
 #include "service/render/heartbeat.h"
+#include "service/render/light_desk.h"
 #include "service/render/pending_changes.h"
 #include "service/render/render_config.h"
 #include "service/render/scene_desk.h"
@@ -74,16 +76,7 @@ class RenderService {
 
   private:
     void renderLoop();
-    void make(Job job);
-    void makeFrame(Job job, const FrameRequest& frame, const SlotPointer& slot);
-    void leaveOut(const Job& job);
-    void handOver(const Job& job, std::variant<FrameResult, CompositeResult> result, const SlotPointer& slot,
-                  MemoryBudget::Share memory);
-    void fail(const Job& job, const Failure& failure);
-    void dropSlot(const SlotPointer& slot, const char* event, const std::string& why);
-    void applyChanges();
-    MemoryBudget::Share roomFor(std::uint64_t bytes);
-    void refine(const SlotPointer& slot, bool generation);
+    void step(const SceneSlot& slot);
 
     void answer(ClientId client, std::uint64_t id, const StopStream& stop);
     void answer(ClientId client, std::uint64_t id, const Cancel& cancel);
@@ -93,8 +86,6 @@ class RenderService {
 
     const RenderConfig& config_;
     Metrics& metrics_;
-    EventLog& log_;
-    MemoryBudget& memory_;
     Outlets outlets_;
     Heartbeat heartbeat_;
 
@@ -107,7 +98,9 @@ class RenderService {
     bool rendering_ = false;  // the render thread is at a picture
     bool closing_ = false, stopping_ = false;
 
-    SceneDesk desk_;  // its threads take the service's lock
+    LightDesk lights_;
+    FrameMaker maker_;  // for the render thread
+    SceneDesk desk_;    // its threads take the service's lock
     std::thread renderThread_;
 };
 

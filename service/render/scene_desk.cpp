@@ -8,7 +8,8 @@
 namespace lumulus::service {
 
 SceneDesk::SceneDesk(const RenderConfig& config, Instruments& instruments, Host host)
-    : instruments_(instruments),
+    : config_(config),
+      instruments_(instruments),
       host_(std::move(host)),
       defaultPending_(!config.defaultScene.empty()),
       loader_(config, instruments, loaderHost()) {
@@ -21,6 +22,15 @@ SceneDesk::SceneDesk(const RenderConfig& config, Instruments& instruments, Host 
 void SceneDesk::stop() {
     loader_.stop();
     default_.reset();
+    ended_.clear();
+}
+
+void SceneDesk::loadDefaultAgain() {
+    if (defaultPending_ || !default_) return;
+    defaultPending_ = true;
+    for (const ClientId client : host_.scenes.withoutScene()) host_.scheduler.setWaiting(client, true);
+    ended_.push_back(std::move(default_));
+    default_ = std::make_unique<DefaultScene>(config_, instruments_, defaultHost());
 }
 
 void SceneDesk::submit(SceneLoader::LoadJob job) {
@@ -68,7 +78,7 @@ SceneLoader::Host SceneDesk::loaderHost() {
 DefaultScene::Host SceneDesk::defaultHost() {
     DefaultScene::Host host;
     host.loaded = [this](const SlotPointer& slot) { defaultLoaded(slot); };
-    host.failed = [this](const std::exception_ptr& error) { host_.begun(error); };
+    host.failed = [this](const std::exception_ptr& error) { defaultFailed(error); };
     return host;
 }
 
@@ -79,7 +89,7 @@ void SceneDesk::keep(const SlotPointer& slot) {
         unseen = host_.scenes.dropUnseen();
         if (!unseen) throw RequestError("busy", "there is no memory for another scene now: try again later");
     }
-    slot->onStep(host_.step);
+    slot->onStep([step = host_.step, raw = slot.get()] { step(*raw); });
     SlotPointer dropped;  // ends after the lock
     const std::lock_guard lock(host_.mutex);
     dropped = host_.scenes.keep(slot);
@@ -98,7 +108,19 @@ void SceneDesk::defaultLoaded(const SlotPointer& slot) {
         }
     }
     defaultEnded_.notify_all();
-    host_.begun(nullptr);
+    if (!std::exchange(begun_, true)) host_.begun(nullptr);
+    host_.ended();
+}
+
+/// At the start the host decides; later on clients go on without the scene.
+void SceneDesk::defaultFailed(const std::exception_ptr& error) {
+    if (!std::exchange(begun_, true)) return host_.begun(error);
+    {
+        const std::lock_guard lock(host_.mutex);
+        defaultPending_ = false;
+        for (const ClientId client : host_.scenes.withoutScene()) letWait(client, loader_.worksFor(client));
+    }
+    defaultEnded_.notify_all();
     host_.ended();
 }
 

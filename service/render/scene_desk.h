@@ -31,8 +31,8 @@ class SceneDesk {
         std::function<void()> ended;
         /// The default scene is there, or cannot be. Without the lock.
         std::function<void(std::exception_ptr)> begun;
-        /// Called between the steps of all work on scenes that are held.
-        std::function<void()> step;
+        /// Called with a slot between the steps of all work on it while it is held.
+        std::function<void(const SceneSlot&)> step;
     };
 
     /// Begins to load the default scene, where there is one. `config` and `instruments` must outlive this.
@@ -50,6 +50,8 @@ class SceneDesk {
     void addClient(ClientId client);
     void removeClient(ClientId client) { loader_.removeClient(client); }
     bool defaultPending() const { return defaultPending_; }
+    /// Loads the default scene once more, which is held no longer: clients without a scene wait for it.
+    void loadDefaultAgain();
     bool busy() const { return loader_.busy(); }
     /// How far the client's load is that is under way, or else the one that waits.
     std::optional<LoadState> state(ClientId client) const { return loader_.state(client); }
@@ -67,13 +69,17 @@ class SceneDesk {
     DefaultScene::Host defaultHost();
     void keep(const SlotPointer& slot);
     void defaultLoaded(const SlotPointer& slot);
+    void defaultFailed(const std::exception_ptr& error);
     void loaded(const SceneLoader::LoadJob& job, const SlotPointer& slot);
     void loadFailed(const SceneLoader::LoadJob& job, const Failure& failure);
     void letWait(ClientId client, bool loads);
     SceneDescription describe(const SlotPointer& slot) const;
 
+    const RenderConfig& config_;
     Instruments& instruments_;
     Host host_;
+    bool begun_ = false;                                // the host knows how the first load of the default scene ended
+    std::vector<std::unique_ptr<DefaultScene>> ended_;  // loads of the default scene; their threads are done
     bool defaultPending_;
     std::condition_variable defaultEnded_;  // it is not pending any more
     SceneLoader loader_;                    // has a lock of its own, which is taken after the service's

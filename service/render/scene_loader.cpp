@@ -125,6 +125,7 @@ SlotPointer SceneLoader::slotFor(const LoadJob& job) {
     };
     auto slot = std::make_shared<SceneSlot>(found.key, found.scene, config_, abandoned,
                                             [this](std::string_view step) { noteStep(step); });
+    if (job.load.isPrivate) slot->giveTo(job.client);
     host_.keep(slot);
     instruments_.metrics.add(Metrics::scenesLoaded);
     instruments_.log.event("info", "scene_loaded",

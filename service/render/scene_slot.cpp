@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "base/version.h"
 #include "service/render/client_picture.h"
+#include "service/render/describe_scene.h"
 #include "service/render/resample.h"
 #include "service/render/views.h"
 #include "service/values/request_error.h"
@@ -30,40 +32,50 @@ Clock::duration inSeconds(double seconds) {
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-std::vector<CloudDescription> cloudsOf(const scene::Scene& scene) {
-    std::vector<CloudDescription> clouds;
-    for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
-        const scene::Phase& phase = scene.clouds[i].phase;
-        const bool readsG =
-            phase.model == scene::PhaseModel::henyeyGreenstein || phase.model == scene::PhaseModel::schlick;
-        clouds.push_back(
-            {scene::nameOf(scene, i), scene.clouds[i].extinction, readsG ? std::optional(phase.g) : std::nullopt});
-    }
-    return clouds;
-}
-
 }  // namespace
 
 SceneSlot::SceneSlot(std::string slotKey, const scene::Scene& scene, const RenderConfig& config,
                      const std::function<void()>& abandoned, const std::function<void(std::string_view)>& begins)
     : key_(std::move(slotKey)), scene_(scene), limits_(config.limits), abandoned_(abandoned), begins_(begins) {
     deadline_ = Clock::now() + inSeconds(limits_.loadSeconds);
-    RendererOptions options;
-    options.device = config.device;
-    options.keepRing = true;
-    options.check = [this] { guard(); };
-    options.report = [this](std::string_view part, std::uint64_t, std::uint64_t) {
-        guard();
-        if (begins_) begins_(part);
-    };
-    renderer_ = std::make_unique<Renderer>(scene_, options);
+    RendererOptions loading = options();
+    loading.device = config.device;
+    renderer_ = std::make_unique<Renderer>(scene_, loading);
+    light_.emplace(scene_, *renderer_);
     learnCosts();
     probeNoise();
     deadline_ = Clock::time_point::max();
     abandoned_ = {};
     begins_ = {};
     lastTraced_ = Clock::now();
-    description_ = describe();
+    description_ = describeScene(scene_, *renderer_, light_->now());
+}
+
+SceneSlot::SceneSlot(std::shared_ptr<SceneSlot> shared, ClientId owner)
+    : key_(fmt::format("{}, light of client {}", shared->key_, owner)),
+      owner_(owner),
+      source_(std::move(shared)),
+      scene_(source_->scene_),
+      limits_(source_->limits_),
+      renderer_(std::make_unique<Renderer>(scene_, *source_->renderer_, options())),
+      description_(source_->description_),
+      costs_(source_->costs_),
+      noise_(source_->noise_),
+      lastTraced_(Clock::now()) {
+    light_.emplace(scene_, *renderer_);
+    description_.light = light_->now();
+    source_->countMemory();
+}
+
+RendererOptions SceneSlot::options() {
+    RendererOptions result;
+    result.keepRing = true;
+    result.check = [this] { guard(); };
+    result.report = [this](std::string_view part, std::uint64_t, std::uint64_t) {
+        guard();
+        if (begins_) begins_(part);
+    };
+    return result;
 }
 
 SceneSlot::Guarded::Guarded(SceneSlot& slot, const std::atomic<bool>* cancelled) : slot_(slot) {
@@ -76,49 +88,29 @@ SceneSlot::Guarded::~Guarded() {
     slot_.deadline_ = Clock::time_point::max();
 }
 
-void SceneSlot::guard() const {
+void SceneSlot::guard() {
     stopIfInterrupted();
     if (abandoned_) abandoned_();
-    if (step_) step_();
+    if (step_) {
+        const auto start = Clock::now();
+        step_();
+        const auto pause = Clock::now() - start;
+        paused_ += pause;
+        if (deadline_ != Clock::time_point::max()) deadline_ += pause;
+    }
     if (cancelled_ != nullptr && cancelled_->load()) throw Cancelled{};
     if (Clock::now() > deadline_) throw TooSlow("the scene takes longer than the limits of the service allow");
 }
 
-SceneDescription SceneSlot::describe() const {
-    SceneDescription result;
-    result.name = scene_.source;
-    result.image = scene_.image;
-    result.light = light();
-    result.seed = scene_.photonMap.seed;
-    result.generations = renderer_->generationsWanted();
-    const Statistics statistics = renderer_->statistics();
-    result.collectors = statistics.collectors;
-    result.device = statistics.device;
-    result.warnings = statistics.warnings;
-    result.originalSun = scene_.sun;
-    result.originalClouds = cloudsOf(scene_);
-    if (!scene_.clouds.empty()) {
-        result.asymmetry = result.originalClouds[0].asymmetry;
-    }
-    result.centre = renderer_->bounds().centre;
-    result.radius = renderer_->bounds().radius();
-    return result;
-}
-
-SceneLight SceneSlot::light() const {
-    const scene::Sun& sun = renderer_->sun();
-    return {sun.directionTo, sun.irradiance,
-            scene_.clouds.empty() ? std::nullopt : std::optional(renderer_->extinction())};
-}
-
 bool SceneSlot::holdMemory(MemoryBudget& budget) {
-    auto share = budget.take(MemoryBudget::scenes, renderer_->statistics().gpuBytesHeld);
+    auto share = budget.take(MemoryBudget::scenes, heldBytes());
     if (share) memory_ = std::move(*share);
     return share.has_value();
 }
 
 void SceneSlot::countMemory() {
-    memory_.resize(renderer_->statistics().gpuBytesHeld);
+    if (source_) return source_->countMemory();  // one device has the memory of all lights of the scene
+    memory_.resize(heldBytes());
 }
 
 std::uint64_t SceneSlot::pictureBytes(std::uint64_t pixels) {
@@ -136,7 +128,7 @@ PhotonState SceneSlot::photons() const {
 }
 
 SceneState SceneSlot::state() const {
-    return {scene_.source, photons(), renderer_->generationsWanted(), costs_.traceMs(), light()};
+    return {scene_.source, photons(), renderer_->generationsWanted(), costs_.traceMs(), light_->now(), owner_.has_value(), 0};
 }
 
 std::size_t SceneSlot::findCloud(const CloudReference& cloud) const {
@@ -148,20 +140,14 @@ std::size_t SceneSlot::findCloud(const CloudReference& cloud) const {
     throw RequestError("not_found", "the scene has no cloud " + wanted, "cloud");
 }
 
-void SceneSlot::apply(const LightChange& light, std::optional<std::size_t> cloud) {
-    bool changed = light.wind && renderer_->setWind(*light.wind);
-    try {
-        if (light.sunDirection || light.sunIrradiance) {
-            const scene::Sun now = renderer_->sun();
-            changed = renderer_->setSun(light.sunDirection.value_or(now.directionTo),
-                                        light.sunIrradiance.value_or(now.irradiance)) ||
-                      changed;
-        }
-        if (light.extinction) changed = renderer_->setExtinction(*light.extinction, cloud) || changed;
-    } catch (const InputError& e) {
-        throw RequestError("bad_request", e.what());
-    }
-    if (changed) ++revision_;
+void SceneSlot::apply(const LightChange& change, std::optional<std::size_t> cloud) {
+    if (light_->apply(change, cloud)) ++revision_;
+}
+
+bool SceneSlot::revert() {
+    const bool reverted = light_->revert();
+    if (reverted) ++revision_;
+    return reverted;
 }
 
 bool SceneSlot::wantsGeneration() const {
@@ -170,11 +156,13 @@ bool SceneSlot::wantsGeneration() const {
 
 void SceneSlot::traceGeneration() {
     const auto start = Clock::now();
+    const auto pausedBefore = paused_;
     {
         const Guarded guarded(*this, nullptr);
         renderer_->traceGeneration();
     }
-    costs_.traced(millisecondsSince(start));
+    light_->prove();
+    costs_.traced(workedSince(start, pausedBefore));
     lastTraced_ = Clock::now();
     tracedAt_.push_back(start);
     while (tracedAt_.size() > static_cast<std::size_t>(renderer_->generations().count)) tracedAt_.pop_front();
@@ -218,6 +206,11 @@ double SceneSlot::allowSun(std::optional<double> milliseconds, double picture) {
     return missing ? costs_.sunMs(CostModel::sunShare(allowed)) : 0.0;
 }
 
+/// Milliseconds of work since `start`, without what went to others, of which there were `pausedBefore` then.
+double SceneSlot::workedSince(Clock::time_point start, Clock::duration pausedBefore) const {
+    return milliseconds(Clock::now() - start - (paused_ - pausedBefore));
+}
+
 View SceneSlot::smallView() const {
     View view = renderer_->sceneView();
     view.image.height = std::clamp(probeWidth * view.image.height / view.image.width, 1, 4 * probeWidth);
@@ -257,6 +250,8 @@ std::uint64_t SceneSlot::raysOf(const std::vector<View>& views) const {
 bool SceneSlot::needsGeneration(const Job& job, const FrameRequest& frame) const {
     if (!wantsGeneration()) return false;
     const Generations ring = renderer_->generations();
+    // light of its own has no photons at first, and without any a cloud is dark
+    if (source_ && ring.count == 0 && frame.budget.photons != std::uint64_t{0}) return true;
     if (frame.budget.photons)
         return static_cast<std::uint64_t>(ring.current) * ring.photonsEach < *frame.budget.photons ||
                (ring.current == 0 && *frame.budget.photons > 0);
@@ -271,12 +266,13 @@ bool SceneSlot::needsGeneration(const Job& job, const FrameRequest& frame) const
 void SceneSlot::drawViews(const std::vector<View>& views, int reduction, FrameResult& result) {
     for (const View& view : views) {
         const auto start = Clock::now();
+        const auto pausedBefore = paused_;
         const View small = reduction > 1 ? reducedView(view, reduction) : view;
         ViewResult drawn{renderer_->draw(small, viewer_), 0, 0};
         drawn.drawnWidth = drawn.image.width;
         drawn.drawnHeight = drawn.image.height;
         if (reduction > 1) drawn.image = enlarged(drawn.image, view, small);
-        result.drawMilliseconds += millisecondsSince(start);
+        result.drawMilliseconds += workedSince(start, pausedBefore);
         for (const PassTime& pass : renderer_->statistics().passes)
             if (pass.stage != Stage::photons) result.passes.push_back(pass);
         drawn.image.attributes["scene"] = scene_.source;
@@ -308,10 +304,6 @@ void SceneSlot::noteDrawn(const FrameResult& result, std::uint64_t rays) {
     if (sun > 0.0) costs_.lit(sun, CostModel::sunShare(renderer_->sunReduction()));
     const auto views = static_cast<double>(result.views.size());
     costs_.drawn(fixed / views, std::max(0.0, result.drawMilliseconds - sun) - fixed * (1.0 - 1.0 / views), rays);
-}
-
-void SceneSlot::noteEncoded(Encoding encoding, double milliseconds, std::uint64_t pixels) {
-    costs_.encoded(encoding, milliseconds, pixels);
 }
 
 /// What `render` needs to make the same picture, as values of --set.

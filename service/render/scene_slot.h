@@ -13,6 +13,7 @@
 #include "render/renderer.h"
 #include "scene/scene.h"
 #include "service/render/cost_model.h"
+#include "service/render/light_state.h"
 #include "service/render/noise.h"
 #include "service/render/render_config.h"
 #include "service/render/scheduler.h"
@@ -31,8 +32,8 @@ class TooSlow : public std::runtime_error {
 };
 
 /// A scene that is served: its renderer, and what its work costs. The renderer owns light, extinction and wind; the
-/// scene as it was loaded never changes. Not for several threads, but for key(), scene(), description() and
-/// findCloud().
+/// scene as it was loaded never changes. Not for several threads, but for key(), owner(), source(),
+/// scene(), description() and findCloud().
 class SceneSlot {
   public:
     /// Loads and prepares the scene, and draws a small picture, so that shaders are compiled and costs known.
@@ -41,7 +42,17 @@ class SceneSlot {
     SceneSlot(std::string slotKey, const scene::Scene& scene, const RenderConfig& config,
               const std::function<void()>& abandoned, const std::function<void(std::string_view)>& begins);
 
+    /// The scene of another slot with light of its own for a client: as the scene has it, and no photons yet. Density,
+    /// device and programs are shared, so that nothing is loaded and one thread has to use both. Errors: Error.
+    SceneSlot(std::shared_ptr<SceneSlot> shared, ClientId owner);
+
     const std::string& key() const { return key_; }
+    /// The client to whom the light belongs; none where clients share it.
+    std::optional<ClientId> owner() const { return owner_; }
+    /// Makes the light a client's. Before the scene is held.
+    void giveTo(ClientId client) { owner_ = client; }
+    /// Whose density is shared; null where the scene was loaded.
+    const std::shared_ptr<SceneSlot>& source() const { return source_; }
     /// The scene as it was loaded.
     const scene::Scene& scene() const { return scene_; }
     /// The scene as it was when it was loaded.
@@ -52,7 +63,10 @@ class SceneSlot {
     std::size_t findCloud(const CloudReference& cloud) const;
     /// `cloud`: whose extinction changes; all without it. Errors: RequestError where the scene cannot have such a
     /// light.
-    void apply(const LightChange& light, std::optional<std::size_t> cloud = {});
+    void apply(const LightChange& change, std::optional<std::size_t> cloud = {});
+
+    /// Brings back the light of before, where no generation was finished since it changed. Returns whether it did.
+    bool revert();
 
     /// Whether the ring lacks generations under the light of now.
     bool wantsGeneration() const;
@@ -75,11 +89,15 @@ class SceneSlot {
     /// Draws the client's picture through the fog of the scene. Errors: Cancelled, RequestError, TooSlow.
     CompositeResult composite(const Job& job, const Composite& composite);
     /// Takes what encoding a picture of this scene cost.
-    void noteEncoded(Encoding encoding, double milliseconds, std::uint64_t pixels);
+    void noteEncoded(Encoding encoding, double milliseconds, std::uint64_t pixels) {
+        costs_.encoded(encoding, milliseconds, pixels);
+    }
 
     /// Draws what the scene holds from the budget, and keeps that in step from now on. Returns false where the budget
     /// does not have it. Before the scene is held.
     bool holdMemory(MemoryBudget& budget);
+    /// Bytes of the device that the scene holds, with all lights of it.
+    std::uint64_t heldBytes() const { return renderer_->statistics().gpuBytesHeld; }
     /// Bytes that the pictures of a frame take until they are encoded.
     std::uint64_t frameBytes(const FrameRequest& frame) const;
     /// The same of a picture of so many pixels.
@@ -100,15 +118,15 @@ class SceneSlot {
         SceneSlot& slot_;
     };
 
-    SceneDescription describe() const;
-    SceneLight light() const;
+    RendererOptions options();
+    double workedSince(Clock::time_point start, Clock::duration pausedBefore) const;
     void countMemory();
     std::vector<View> viewsOf(const std::vector<ViewRequest>& requests) const;
     std::uint64_t raysOf(const std::vector<View>& views) const;
     View smallView() const;
     void learnCosts();
     void probeNoise();
-    void guard() const;
+    void guard();
     double sharpenShare() const;
     double allowSun(std::optional<double> milliseconds, double picture);
     void drawViews(const std::vector<View>& views, int reduction, FrameResult& result);
@@ -119,14 +137,18 @@ class SceneSlot {
     SceneShown shown() const;
 
     std::string key_;
+    std::optional<ClientId> owner_;
+    std::shared_ptr<SceneSlot> source_;
     const scene::Scene scene_;
     const RenderLimits& limits_;
     std::function<void()> abandoned_, step_;
     std::function<void(std::string_view)> begins_;  // a step of the load
     const std::atomic<bool>* cancelled_ = nullptr;  // of the job that is drawn
     Clock::time_point deadline_ = Clock::time_point::max();
+    Clock::duration paused_{};  ///< in step_, which may work for others
     std::unique_ptr<Renderer> renderer_;
     ViewState viewer_;  ///< of all views of the scene, which are drawn one after the other; gone before the renderer
+    std::optional<LightState> light_;  ///< of the renderer
     MemoryBudget::Share memory_;
     SceneDescription description_;
     CostModel costs_;

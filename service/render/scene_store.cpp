@@ -6,7 +6,51 @@
 
 namespace lumulus::service {
 
+void SceneStore::removeClient(ClientId client) {
+    retireOwn(client);
+    shownTo_.erase(client);
+}
+
+void SceneStore::show(ClientId client, SlotPointer slot) {
+    retireOwn(client);
+    shownTo_[client] = std::move(slot);
+}
+
+void SceneStore::retireOwn(ClientId client) {
+    const auto it = own_.find(client);
+    if (it == own_.end()) return;
+    if (it->second) {
+        published_.erase(it->second->key());
+        retired_.push_back(it->second);
+    }
+    own_.erase(it);
+}
+
+void SceneStore::promiseOwn(ClientId client) {
+    if (own_.contains(client)) return;
+    if (own_.size() >= mostOwn_)
+        throw RequestError("busy", "all " + std::to_string(mostOwn_) +
+                                       " lights of their own that the service gives to clients are in use");
+    own_[client] = nullptr;
+}
+
+SlotPointer SceneStore::ownOf(ClientId client, const SlotPointer& source) const {
+    const auto it = own_.find(client);
+    return it != own_.end() && it->second && it->second->source() == source ? it->second : nullptr;
+}
+
+void SceneStore::keepOwn(const SlotPointer& slot) {
+    const auto shown = shownTo_.find(*slot->owner());
+    if (shown == shownTo_.end() || shown->second != slot->source()) {
+        retired_.push_back(slot);  // the client has gone, or looks at another scene
+        return;
+    }
+    own_[*slot->owner()] = slot;
+    publish(*slot);
+}
+
 SlotPointer SceneStore::shownTo(ClientId client) const {
+    if (const auto own = own_.find(client); own != own_.end() && own->second) return own->second;
     const auto it = shownTo_.find(client);
     return it == shownTo_.end() ? nullptr : it->second;
 }
@@ -17,11 +61,19 @@ SlotPointer SceneStore::find(const std::string& key) const {
 }
 
 bool SceneStore::holds(const SlotPointer& slot) const {
-    return std::ranges::find(slots_, slot) != slots_.end();
+    return std::ranges::find(slots_, slot) != slots_.end() ||
+           std::ranges::any_of(own_, [&](const auto& entry) { return slot && entry.second == slot; });
 }
 
 bool SceneStore::seen(const SlotPointer& slot) const {
     return slot == default_ || std::ranges::any_of(shownTo_, [&](const auto& entry) { return entry.second == slot; });
+}
+
+/// Whether somebody sees the scene under the light that it was loaded with, or will when it connects.
+bool SceneStore::watched(const SlotPointer& slot) const {
+    return slot == default_ || std::ranges::any_of(shownTo_, [&](const auto& entry) {
+               return entry.second == slot && !ownOf(entry.first, slot);
+           });
 }
 
 std::vector<ClientId> SceneStore::withoutScene() const {
@@ -52,6 +104,7 @@ SlotPointer SceneStore::keep(const SlotPointer& slot) {
 }
 
 void SceneStore::drop(const SlotPointer& slot) {
+    if (slot->source()) return retireOwn(*slot->owner());
     std::erase(slots_, slot);
     published_.erase(slot->key());
     for (auto& [client, shown] : shownTo_)
@@ -60,7 +113,9 @@ void SceneStore::drop(const SlotPointer& slot) {
 }
 
 void SceneStore::publish(const SceneSlot& slot) {
-    const bool held = std::ranges::any_of(slots_, [&](const SlotPointer& one) { return one.get() == &slot; });
+    const auto is = [&](const SlotPointer& one) { return one.get() == &slot; };
+    const bool held = std::ranges::any_of(slots_, is) ||
+                      std::ranges::any_of(own_, [&](const auto& entry) { return is(entry.second); });
     if (held) published_[slot.key()] = {slot.revision(), slot.state()};
 }
 
@@ -81,7 +136,7 @@ std::optional<SceneState> SceneStore::state(ClientId client) const {
     if (known == nullptr) return std::nullopt;
     SceneState state = known->state;
     const SlotPointer slot = shownTo(client);
-    for (const auto& [other, shown] : shownTo_) state.clients += shown == slot ? 1U : 0U;
+    for (const auto& [other, shown] : shownTo_) state.clients += shownTo(other) == slot ? 1U : 0U;
     return state;
 }
 
@@ -97,10 +152,14 @@ bool SceneStore::starves(const SceneSlot& slot, Clock::time_point now) {
 
 SlotPointer SceneStore::toRefine(Clock::time_point now, std::optional<Clock::time_point> due) const {
     SlotPointer best;
-    for (const SlotPointer& slot : slots_)
-        if (seen(slot) && (slot->wantsGeneration() || slot->wantsSun()) &&
-            (!best || slot->lastTraced() < best->lastTraced()))
+    const auto consider = [&](const SlotPointer& slot) {
+        if ((slot->wantsGeneration() || slot->wantsSun()) && (!best || slot->lastTraced() < best->lastTraced()))
             best = slot;
+    };
+    for (const SlotPointer& slot : slots_)
+        if (watched(slot)) consider(slot);
+    for (const auto& [client, slot] : own_)
+        if (slot) consider(slot);
     if (!best || !due || starves(*best, now)) return best;
     const double step = best->wantsSun() ? best->sharpenMs() : best->traceMs();
     return now + std::chrono::duration<double, std::milli>(step) < std::max(*due, now) ? best : nullptr;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "service/render/scene_slot.h"
@@ -18,21 +19,34 @@ using SlotPointer = std::shared_ptr<SceneSlot>;
 /// publish() is known here to the other threads. The caller locks.
 class SceneStore {
   public:
-    /// Holds `most` scenes at most.
-    explicit SceneStore(std::uint32_t most) : most_(most) {}
+    /// Holds `most` scenes at most, and `mostOwn` lights of clients' own.
+    SceneStore(std::uint32_t most, std::uint32_t mostOwn) : most_(most), mostOwn_(mostOwn) {}
 
     /// The client sees the default scene, where there is one.
     void addClient(ClientId client) { shownTo_[client] = default_; }
-    void removeClient(ClientId client) { shownTo_.erase(client); }
+    void removeClient(ClientId client);
     bool knows(ClientId client) const { return shownTo_.contains(client); }
-    void show(ClientId client, SlotPointer slot) { shownTo_[client] = std::move(slot); }
-    /// The scene that a client sees; null where it has none.
+    /// The client sees this scene from now on; its own light of another one goes.
+    void show(ClientId client, SlotPointer slot);
+    /// The scene that a client sees, with the client's own light where it has one; null where it has none.
     SlotPointer shownTo(ClientId client) const;
+
+    /// Sets a light aside for the client. Errors: RequestError `busy` where there are too many.
+    void promiseOwn(ClientId client);
+    /// Forgets a light that was promised and cannot be made.
+    void breakPromise(ClientId client) { retireOwn(client); }
+    /// The client's own light of a scene; null where it has none.
+    SlotPointer ownOf(ClientId client, const SlotPointer& source) const;
+    /// Takes the light that was promised to its owner, who sees it from now on.
+    void keepOwn(const SlotPointer& slot);
+    /// Lights that nobody sees any more. Let them end on the thread that uses scenes, without the lock.
+    std::vector<SlotPointer> takeRetired() { return std::exchange(retired_, {}); }
 
     void setDefault(SlotPointer slot) { default_ = std::move(slot); }
     /// Clients that see no scene.
     std::vector<ClientId> withoutScene() const;
     bool hasDefault() const { return default_ != nullptr; }
+    bool isDefault(const SlotPointer& slot) const { return default_ != nullptr && default_ == slot; }
     /// A scene by its key; null where it is not held.
     SlotPointer find(const std::string& key) const;
     bool holds(const SlotPointer& slot) const;
@@ -41,7 +55,8 @@ class SceneStore {
     SlotPointer keep(const SlotPointer& slot);
     /// Forgets the oldest scene that nobody sees, and returns it; null where there is none.
     SlotPointer dropUnseen();
-    /// Forgets a scene; its clients have none any more.
+    /// Forgets a scene; its clients have none any more. Forgets a client's own light; the client sees the scene as it
+    /// was loaded again.
     void drop(const SlotPointer& slot);
     std::size_t size() const { return slots_.size(); }
 
@@ -67,12 +82,16 @@ class SceneStore {
     };
 
     bool seen(const SlotPointer& slot) const;
+    bool watched(const SlotPointer& slot) const;
+    void retireOwn(ClientId client);
     const Published* published(ClientId client) const;
 
-    std::uint32_t most_;
+    std::uint32_t most_, mostOwn_;
     std::deque<SlotPointer> slots_;  // least recently loaded first
     SlotPointer default_;
-    std::map<ClientId, SlotPointer> shownTo_;
+    std::map<ClientId, SlotPointer> shownTo_;  // without clients' own lights
+    std::map<ClientId, SlotPointer> own_;      // null: promised
+    std::vector<SlotPointer> retired_;
     std::map<std::string, Published> published_;  // by key
 };
 

@@ -120,9 +120,19 @@ std::optional<Job> Scheduler::takeFrom(ClientId id, Client& client, Clock::time_
 }
 
 std::optional<Job> Scheduler::take(Clock::time_point now, const Revision& revision) {
+    return takeWhere(now, revision, [](ClientId, const Client&) { return true; });
+}
+
+std::optional<Job> Scheduler::takeBeside(Clock::time_point now, const Revision& revision,
+                                         const std::function<bool(ClientId)>& allowed) {
+    return takeWhere(now, revision, [&](ClientId id, const Client& client) { return !client.current && allowed(id); });
+}
+
+template <class Condition>
+std::optional<Job> Scheduler::takeWhere(Clock::time_point now, const Revision& revision, const Condition& condition) {
     for (auto it = line_.begin(); it != line_.end(); ++it) {
         Client& client = clients_.at(*it);
-        if (blocked(client)) continue;
+        if (blocked(client) || !condition(*it, client)) continue;
         if (auto job = takeFrom(*it, client, now, revision)) {
             client.current = *job;
             line_.splice(line_.end(), line_, it);

@@ -64,6 +64,9 @@ class Scheduler {
 
     /// The next picture, if any is due. Its client goes to the end of the line.
     std::optional<Job> take(Clock::time_point now, const Revision& revision);
+    /// The same while another picture is drawn: of clients that are `allowed` and have none under way.
+    std::optional<Job> takeBeside(Clock::time_point now, const Revision& revision,
+                                  const std::function<bool(ClientId)>& allowed);
     /// Gives back what take() gave, to go on with it after those of the other clients. False where it was superseded,
     /// or is no longer what its client waits for.
     bool putBack(const Job& job);
@@ -118,6 +121,8 @@ class Scheduler {
         return !stream.request.onChange || stream.seen != revision;
     }
     static void forget(Client& client, std::uint64_t stream);
+    template <class Condition>
+    std::optional<Job> takeWhere(Clock::time_point now, const Revision& revision, const Condition& condition);
     std::optional<Job> takeFrom(ClientId id, Client& client, Clock::time_point now, const Revision& revision);
 
     Bounds bounds_;

@@ -62,6 +62,7 @@ struct SceneState {
     int generationsWanted = 0;
     double traceMilliseconds = 0.0;  ///< of a generation, lately
     SceneLight light;
+    bool own = false;           ///< whether the light is the client's own
     std::uint64_t clients = 0;  ///< that are shown the scene, and share its light
 };
 

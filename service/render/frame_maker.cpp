@@ -1,0 +1,236 @@
+#include "service/render/frame_maker.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "service/values/request_error.h"
+
+namespace lumulus::service {
+
+namespace {
+
+const Failure shuttingDown{"shutting_down", "the service is shutting down", {}};
+constexpr const char* noMemory = "there is no memory for so many pixels now: ask for fewer, or later";
+
+/// Puts a slot among those at which work is under way, while it lives.
+class Busy {
+  public:
+    Busy(std::vector<const SceneSlot*>& busy, const SceneSlot& slot) : busy_(busy) { busy_.push_back(&slot); }
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+    ~Busy() { busy_.pop_back(); }
+
+  private:
+    std::vector<const SceneSlot*>& busy_;
+};
+
+}  // namespace
+
+FrameMaker::FrameMaker(Instruments& instruments, Host host)
+    : metrics_(instruments.metrics), log_(instruments.log), memory_(instruments.memory), host_(std::move(host)) {}
+
+void FrameMaker::publish(const SceneSlot& slot) {
+    const std::lock_guard lock(host_.mutex);
+    host_.scenes.publish(slot);
+}
+
+void FrameMaker::applyChanges() {
+    std::vector<PendingChanges::Change> changes;
+    std::vector<EncodingDesk::Cost> costs;
+    {
+        const std::lock_guard lock(host_.mutex);
+        changes = host_.changes.takeAll();
+        costs = host_.encoding.takeCosts();
+    }
+    for (const auto& [client, slot, light, cloud, toOwn] : changes) {
+        try {
+            const SlotPointer changed = host_.lights.toChange(client, slot, light, cloud);
+            changed->apply(light, cloud);
+            publish(*changed);
+        } catch (const RequestError& e) {
+            log_.event("warning", "change_refused", {{"scene", slot->scene().source}, {"message", e.what()}});
+            const std::lock_guard lock(host_.mutex);
+            host_.lights.noteFailure(client, {e.code, e.what(), e.where});
+        }
+    }
+    for (const EncodingDesk::Cost& cost : costs)
+        if (const SlotPointer slot = cost.slot.lock())
+            slot->noteEncoded(cost.encoding, cost.report.milliseconds, cost.report.pixels);
+}
+
+/// Errors: those of the scene.
+void FrameMaker::trace(const SlotPointer& slot, bool generation) {
+    const Busy busy(busy_, *slot);
+    if (generation) {
+        slot->traceGeneration();
+        metrics_.add(Metrics::generationsTraced);
+    } else {
+        slot->sharpenSun();
+    }
+    publish(*slot);
+}
+
+void FrameMaker::refine(const SlotPointer& slot, bool generation) {
+    try {
+        trace(slot, generation);
+    } catch (const TooSlow& e) {
+        const Failure failure{"too_large", e.what(), {}};
+        if (!bringBack(slot, "generation_cut_off", e)) dropSlot(slot, "generation_failed", e.what());
+        const std::lock_guard lock(host_.mutex);
+        if (slot->owner()) host_.lights.noteFailure(*slot->owner(), failure);
+    } catch (const std::exception& e) {
+        dropSlot(slot, "generation_failed", e.what());
+    }
+}
+
+/// Where a scene takes longer than the limits allow since its light changed, brings the light of before back. Light of
+/// a client's own without one goes. Returns false where there is neither.
+bool FrameMaker::bringBack(const SlotPointer& slot, const char* event, const TooSlow& error) {
+    const bool reverted = slot->revert();
+    if (!reverted && !slot->source()) return false;
+    log_.event("warning", event, {{"scene", slot->scene().source}, {"message", error.what()}});
+    const std::lock_guard lock(host_.mutex);
+    // the first light of its own has nothing traced under the light of before: the scene as it was loaded has
+    if (slot->source() && slot->state().photons.current == 0 && slot->state().photons.generations == 0)
+        host_.scenes.drop(slot);
+    else
+        host_.scenes.publish(*slot);
+    return true;
+}
+
+/// Errors: RequestError where the budget does not have it.
+MemoryBudget::Share FrameMaker::roomFor(std::uint64_t bytes) {
+    auto share = memory_.take(MemoryBudget::frames, bytes);
+    if (!share) throw RequestError("busy", noMemory);
+    return std::move(*share);
+}
+
+void FrameMaker::make(Job job) {
+    SlotPointer slot;
+    bool closing = false;
+    std::optional<Failure> failure;
+    {
+        const std::lock_guard lock(host_.mutex);
+        slot = host_.scenes.shownTo(job.client);
+        closing = host_.closing;
+        failure = host_.lights.takeFailure(job.client);
+    }
+    if (failure) return fail(job, *failure);
+    try {
+        if (job.cancelled->load()) throw Cancelled{};
+        if (!slot && closing) throw RequestError(shuttingDown.code, shuttingDown.text);
+        if (!slot) throw RequestError("no_scene", "load a scene first");
+        if (const auto* composite = std::get_if<Composite>(job.work.get())) {
+            MemoryBudget::Share memory = roomFor(SceneSlot::pictureBytes(composite->pixels.size() / 16));
+            const Busy busy(busy_, *slot);
+            handOver(job, slot->composite(job, *composite), slot, std::move(memory));
+        } else {
+            const auto& frame = std::get<FrameRequest>(*job.work);
+            if (!job.begun) slot = host_.lights.toChange(job.client, slot, frame.light, std::nullopt);
+            makeFrame(job, frame, slot);
+        }
+    } catch (const RequestError& e) {
+        fail(job, {e.code, e.what(), e.where});
+    } catch (const Cancelled&) {
+        fail(job, {"cancelled", "cancelled on request", {}});
+    } catch (const TooSlow& e) {
+        if (!bringBack(slot, "frame_cut_off", e)) dropSlot(slot, "frame_failed", e.what());
+        fail(job, {"too_large", e.what(), {}});
+    } catch (const std::exception& e) {
+        fail(job, {"internal", e.what(), {}});
+        dropSlot(slot, "frame_failed", e.what());
+    }
+}
+
+void FrameMaker::makeFrame(Job job, const FrameRequest& frame, SlotPointer slot) {
+    // once: of two lights that clients ask for alternately, neither would ever see all its generations
+    if (!job.begun) slot->apply(frame.light);
+    job.begun = true;
+    bool hurry = false;
+    {
+        const std::lock_guard lock(host_.mutex);
+        hurry = host_.closing;
+    }
+    if (!hurry && slot->needsGeneration(job, frame)) {
+        trace(slot, true);
+        bool kept = false;
+        {
+            const std::lock_guard lock(host_.mutex);
+            kept = host_.scenes.shownTo(job.client) == slot && host_.scheduler.putBack(job);
+        }
+        if (!kept) leaveOut(job);
+        return;
+    }
+    // a stream without a budget refines as it goes
+    const bool refines = job.stream && !frame.budget.milliseconds && !frame.budget.photons && slot->wantsGeneration();
+    if (refines && !hurry) trace(slot, true);
+    auto memory = memory_.take(MemoryBudget::frames, slot->frameBytes(frame));
+    if (!memory && job.stream) return leaveOut(job);
+    if (!memory) throw RequestError("busy", noMemory);
+    const Busy busy(busy_, *slot);
+    FrameResult drawn = slot->draw(job, frame);
+    publish(*slot);
+    handOver(job, std::move(drawn), slot, std::move(*memory));
+}
+
+void FrameMaker::interject(const SceneSlot& slot) {
+    constexpr std::size_t deepest = 2;
+    if (busy_.empty() || busy_.back() != &slot || busy_.size() >= deepest) return;
+    std::optional<Job> job;
+    {
+        const std::lock_guard lock(host_.mutex);
+        if (host_.closing || host_.encoding.full() || host_.changes.any()) return;
+        const auto revision = [this](ClientId client) { return host_.scenes.revision(client); };
+        job = host_.scheduler.takeBeside(Clock::now(), revision, [&](ClientId client) {
+            const SlotPointer shown = host_.scenes.shownTo(client);
+            return shown && std::ranges::find(busy_, shown.get()) == busy_.end();
+        });
+    }
+    if (job) make(std::move(*job));
+}
+
+void FrameMaker::leaveOut(const Job& job) {
+    if (!job.stream) {
+        fail(job, {"superseded", "a newer frame of the channel takes its place, or its scene is gone", {}});
+        return;
+    }
+    const std::lock_guard lock(host_.mutex);
+    host_.scheduler.leaveOut(job);
+}
+
+void FrameMaker::handOver(const Job& job, std::variant<FrameResult, CompositeResult> result, const SlotPointer& slot,
+                          MemoryBudget::Share memory) {
+    {
+        const std::lock_guard lock(host_.mutex);
+        if (!host_.scheduler.drawn(job)) return;
+        host_.encoding.begin();
+    }
+    host_.encode({job, std::move(result), slot, std::move(memory)});
+}
+
+void FrameMaker::fail(const Job& job, const Failure& failure) {
+    {
+        const std::lock_guard lock(host_.mutex);
+        if (!host_.scheduler.done(job)) return;
+        if (job.stream) host_.scheduler.stopStream(job.client, job.id);
+        host_.reply(job.client, job.id, failure);
+    }
+    metrics_.add(Metrics::requestsRefused);
+}
+
+/// A renderer in which something failed is of no more use; its clients have to load again. The default scene is loaded
+/// again for them.
+void FrameMaker::dropSlot(const SlotPointer& slot, const char* event, const std::string& why) {
+    if (!slot || interrupted()) return;  // the service ends
+    log_.event("error", event, {{"scene", slot->scene().source}, {"message", why}});
+    const std::lock_guard lock(host_.mutex);
+    const bool wasDefault = host_.scenes.isDefault(slot);
+    host_.scenes.drop(slot);
+    if (wasDefault && !host_.closing) host_.scenesToCome.loadDefaultAgain();
+    metrics_.set(Metrics::scenesHeld, static_cast<std::int64_t>(host_.scenes.size()));
+}
+
+}  // namespace lumulus::service

@@ -1,0 +1,63 @@
+#include "service/render/light_desk.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "service/values/request_error.h"
+
+namespace lumulus::service {
+
+bool LightDesk::needsOwn(ClientId client, const SlotPointer& slot, const LightChange& change,
+                         std::optional<std::size_t> cloud) const {
+    if (config_.sharedLight || slot->owner() == client || change.empty()) return false;
+    return changesLight(slot->scene(), change, cloud);
+}
+
+bool LightDesk::promise(ClientId client, const SlotPointer& slot, const LightChange& change,
+                        std::optional<std::size_t> cloud) {
+    if (!slot || !needsOwn(client, slot, change, cloud)) return false;
+    host_.scenes.promiseOwn(client);
+    return true;
+}
+
+std::optional<Failure> LightDesk::takeFailure(ClientId client) {
+    const auto it = failures_.find(client);
+    if (it == failures_.end()) return std::nullopt;
+    std::optional<Failure> failure = std::move(it->second);
+    failures_.erase(it);
+    return failure;
+}
+
+/// Errors: RequestError `busy` where memory runs out.
+SlotPointer LightDesk::make(ClientId client, const SlotPointer& slot) {
+    try {
+        // until it is there and counted with the scene's: no more than the scene has itself
+        const auto room = instruments_.memory.take(MemoryBudget::scenes, slot->heldBytes());
+        if (!room) throw Error("the memory of the service is in use");
+        return std::make_shared<SceneSlot>(slot, client);
+    } catch (const Error& e) {
+        const std::lock_guard lock(host_.mutex);
+        host_.scenes.breakPromise(client);
+        throw RequestError("busy", std::string("there is no light of your own to be had now: ") + e.what());
+    }
+}
+
+SlotPointer LightDesk::toChange(ClientId client, const SlotPointer& slot, const LightChange& change,
+                                std::optional<std::size_t> cloud) {
+    if (!needsOwn(client, slot, change, cloud)) return slot;
+    {
+        const std::lock_guard lock(host_.mutex);
+        if (SlotPointer own = host_.scenes.ownOf(client, slot)) return own;
+        host_.scenes.promiseOwn(client);
+    }
+    const SlotPointer own = make(client, slot);
+    own->onStep([step = host_.step, raw = own.get()] { step(*raw); });
+    instruments_.log.event("info", "light_made", {{"client", client}, {"scene", slot->scene().source}});
+    const std::lock_guard lock(host_.mutex);
+    host_.scenes.keepOwn(own);
+    return own;
+}
+
+}  // namespace lumulus::service
