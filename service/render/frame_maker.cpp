@@ -154,8 +154,9 @@ void FrameMaker::makeFrame(Job job, const FrameRequest& frame, SlotPointer slot)
         const std::lock_guard lock(host_.mutex);
         hurry = host_.closing;
     }
+    const bool between = !busy_.empty();  // the steps of other work, which is to go on soon: no photons then
     if (!hurry && slot->needsGeneration(job, frame)) {
-        trace(slot, true);
+        if (!between) trace(slot, true);
         bool kept = false;
         {
             const std::lock_guard lock(host_.mutex);
@@ -166,7 +167,7 @@ void FrameMaker::makeFrame(Job job, const FrameRequest& frame, SlotPointer slot)
     }
     // a stream without a budget refines as it goes
     const bool refines = job.stream && !frame.budget.milliseconds && !frame.budget.photons && slot->wantsGeneration();
-    if (refines && !hurry) trace(slot, true);
+    if (refines && !hurry && !between) trace(slot, true);
     auto memory = memory_.take(MemoryBudget::frames, slot->frameBytes(frame));
     if (!memory && job.stream) return leaveOut(job);
     if (!memory) throw RequestError("busy", noMemory);
@@ -177,7 +178,7 @@ void FrameMaker::makeFrame(Job job, const FrameRequest& frame, SlotPointer slot)
 }
 
 void FrameMaker::interject(const SceneSlot& slot) {
-    constexpr std::size_t deepest = 2;
+    constexpr std::size_t deepest = 4;
     if (busy_.empty() || busy_.back() != &slot || busy_.size() >= deepest) return;
     std::optional<Job> job;
     {

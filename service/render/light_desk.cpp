@@ -35,13 +35,13 @@ SlotPointer LightDesk::make(ClientId client, const SlotPointer& slot) {
     try {
         // until it is there and counted with the scene's: no more than the scene has itself
         const auto room = instruments_.memory.take(MemoryBudget::scenes, slot->heldBytes());
-        if (!room) throw Error("the memory of the service is in use");
-        return std::make_shared<SceneSlot>(slot, client);
+        if (room) return std::make_shared<SceneSlot>(slot, client);
     } catch (const Error& e) {
-        const std::lock_guard lock(host_.mutex);
-        host_.scenes.breakPromise(client);
-        throw RequestError("busy", std::string("there is no light of your own to be had now: ") + e.what());
+        instruments_.log.event("warning", "light_failed", {{"client", client}, {"message", e.what()}});
     }
+    const std::lock_guard lock(host_.mutex);
+    host_.scenes.breakPromise(client);
+    throw RequestError("busy", "the service has no memory for light of your own now: try again later");
 }
 
 SlotPointer LightDesk::toChange(ClientId client, const SlotPointer& slot, const LightChange& change,

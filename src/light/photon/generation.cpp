@@ -4,6 +4,7 @@
 #include <cmath>
 #include <thread>
 
+#include "base/stopwatch.h"
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
 #include "light/photon/map_limits.h"
@@ -35,6 +36,8 @@ constexpr unsigned leastCores = 2, mostCores = 16;
 constexpr std::uint32_t sortRows = 16;
 constexpr std::uint32_t stepLimit = 1U << 15U;
 /// A photon that collides more often is counted as lost. Optical depth 1e6 with albedo 1 stays below it.
+/// Seconds after which the next rounds of a generation get fewer steps.
+constexpr double longRound = 0.08;
 constexpr std::uint32_t collisionLimit = 1U << 24U;
 
 std::uint32_t invocationsFor(const gpu::Context& context, std::uint64_t photons) {
@@ -151,6 +154,13 @@ void GenerationTracer::recordSort(const shared::GatherPush& push) {
     commands_.barrier("sorted records");
 }
 
+/// Halves the steps of a round: between rounds work can be cut off. Photons go the same ways, whatever their number.
+void GenerationTracer::shortenRounds() {
+    constexpr std::uint32_t fewest = 16;
+    std::uint32_t& steps = params_.mapped<shared::TraceParams>()[0].stepLimit;
+    steps = std::max(fewest, steps / 2);
+}
+
 void GenerationTracer::round(const gpu::Buffer& coefficients) {
     counters_.mapped<shared::TraceCounters>()[0] = {};
     const shared::GatherPush push{collectors_, invocations_, recordCapacity_};
@@ -193,7 +203,9 @@ void GenerationTracer::trace(const Emission& emission, const scene::Sun& sun, do
     const shared::TraceCounters& c = counters_.mapped<shared::TraceCounters>()[0];
     do {
         options_.check();
+        const Stopwatch watch;
         round(coefficients);
+        if (watch.seconds() > longRound) shortenRounds();
         log.add(commands_);
         counters.events += c.events;
         counters.nulls += c.nulls;

@@ -56,6 +56,7 @@ class GenerationTracer {
     shared::TraceParams traceParams(const Emission& emission, const scene::Sun& sun, double extinction,
                                     int unitExponent, std::uint32_t number) const;
     void recordSort(const shared::GatherPush& push);
+    void shortenRounds();
     void round(const gpu::Buffer& coefficients);
 };
 
