@@ -63,6 +63,25 @@ TEST_F(SchedulerTest, ClientsTakeTurns) {
     EXPECT_EQ(next(), 0U);
 }
 
+TEST_F(SchedulerTest, BesideAPictureOnlyOthersAreServed) {
+    const auto revisionOf = [this](ClientId) { return revision; };
+    const auto beside = [&](ClientId refused) {
+        return scheduler.takeBeside(now, revisionOf, [refused](ClientId client) { return client != refused; });
+    };
+    for (const ClientId client : {1U, 2U}) scheduler.submit(frame(client, 10 * client, 0, true));
+    scheduler.submit(frame(1, 11, 0, true));
+    const auto first = take();
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->id, 10U);
+    EXPECT_FALSE(beside(2)) << "client 1 has a picture under way";
+    const auto second = beside(9);
+    ASSERT_TRUE(second);
+    EXPECT_EQ(second->id, 20U);
+    EXPECT_TRUE(scheduler.done(*second));
+    EXPECT_TRUE(scheduler.done(*first)) << "the one under way is not forgotten";
+    EXPECT_EQ(next(), 11U);
+}
+
 TEST_F(SchedulerTest, TheLatestOfAChannelWins) {
     EXPECT_THAT(scheduler.submit(frame(1, 10, 0)), IsEmpty());
     EXPECT_THAT(scheduler.submit(frame(1, 11, 1)), IsEmpty());
