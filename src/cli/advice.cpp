@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <initializer_list>
 
 #include "base/error.h"
 #include "scene/suggest.h"
@@ -22,6 +23,23 @@ std::string optionIn(std::string_view word) {
 
 bool takesOption(const CLI::App& command, const std::string& name) {
     return command.get_option_no_throw(name) != nullptr;
+}
+
+/// A word that begins with a dash of typography, as text processors and web pages put in the place of "--": the option
+/// that is meant, or empty.
+std::string typesetOption(std::string_view word) {
+    const auto takeDash = [&word](std::initializer_list<std::string_view> dashes) {
+        for (const std::string_view dash : dashes) {
+            if (!word.starts_with(dash)) continue;
+            word.remove_prefix(dash.size());
+            return true;
+        }
+        return false;
+    };
+    if (!takeDash({"\u2013", "\u2014", "\u2212"})) return {};
+    while (takeDash({"\u2013", "\u2014", "\u2212", "-"})) continue;
+    if (word.empty()) return {};
+    return (word.size() == 1 ? "-" : "--") + std::string(word);
 }
 
 /// All names of options that the help of a command shows.
@@ -112,7 +130,12 @@ void refuseUnknownWords(const CLI::App& app, std::span<const char* const> words)
     for (std::size_t i = 0; i < words.size(); ++i) {
         const std::string word = words[i];
         if (word == "--") return;
-        const std::string name = optionIn(word);
+        const std::string name = optionIn(word), meant = typesetOption(word);
+        if (!meant.empty())
+            throw InputError("unknown option \"" + word + "\"", titleOf(app, *command),
+                             takesOption(*command, optionIn(meant))
+                                 ? fmt::format("did you mean {}, with plain dashes?", optionIn(meant))
+                                 : optionAdvice(app, *command, meant, words.subspan(i + 1)));
         if (name.empty()) {
             if (command != &app) continue;
             command = findCommand(app, word);

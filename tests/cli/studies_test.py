@@ -98,7 +98,7 @@ class SamePictures(unittest.TestCase):
             other.chmod(0o755)
             done = study("same_pictures", LUMULUS, other, "--case", self.CASES)
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertRegex(done.stdout, r"\| cumulus, march \| 12 \| 160×90 \| \*\*differs\*\* R: \d+ of 14400 values")
+        self.assertRegex(done.stdout, r"\| cumulus, march \| 13 \| 160×90 \| \*\*differs\*\* R: \d+ of 14400 values")
         self.assertIn("2 of 3 cases are equal", done.stdout)
 
 

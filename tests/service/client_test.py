@@ -46,6 +46,8 @@ class InstalledClient(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             prefix, source, program = (os.path.join(folder, name) for name in ("prefix", "main.cpp", "main"))
             subprocess.run(["cmake", "--install", BUILD, "--prefix", prefix], check=True, stdout=subprocess.DEVNULL)
+            for name in ("man/man1/lumulus-render.1", "bash-completion/completions/lumulus"):
+                self.assertTrue(os.path.exists(os.path.join(prefix, "share", name)), name)
             with open(source, "w") as file:
                 file.write(PROGRAM)
             library = next(os.path.join(path, "liblumulus_client.a") for path, _, files in os.walk(prefix)

@@ -78,7 +78,7 @@ class Faults(ServiceTest):
             self.assertEqual(self.uploads(), [digest.removeprefix("sha256:") + ".vdb"])
             self.assertEqual([entry["hash"] for entry in client.list_uploads()["uploads"]], [digest])
             client.load_scene("small.toml", vdb=digest)
-            self.assertGreater(client.frame().values()[..., 3].max(), 0.1)
+            self.assertGreater(client.frame(products=["cloud"]).values("cloud")[..., 3].max(), 0.1)
             with self.assertRaises(ServiceError) as caught:
                 client.load_scene("small.toml", vdb="0" * 64)
             self.assertEqual(caught.exception.code, "not_found")

@@ -1,5 +1,6 @@
 """Frames over the socket: what they hold, that `render` makes the same, channels, streams, deadlines, idleness."""
 
+import io
 import os
 import re
 import socket
@@ -10,6 +11,7 @@ import time
 import unittest
 
 import numpy
+from PIL import Image
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
 from flat_layers import read_exr
@@ -112,8 +114,25 @@ class Behaviour(ServiceTest):
         far = {"position": [0, 100, 5000], "target": [0, 100, 6000]}
         with self.server.client() as client:
             for _ in range(2):
-                self.assertGreater(client.frame().values()[..., 3].max(), 0.1)
-                self.assertEqual(client.frame(camera=far).values()[..., 3].max(), 0.0)
+                self.assertGreater(client.frame(products=["cloud"]).values("cloud")[..., 3].max(), 0.1)
+                self.assertEqual(client.frame(products=["cloud"], camera=far).values("cloud")[..., 3].max(), 0.0)
+
+    def test_alpha_goes_with_its_colours(self):
+        asked = {"products": ["color", "cloud"], "encoding": "float"}
+        with self.server.client() as client:
+            name = client.welcome["scene"]
+            client.load_scene(name, private=True)
+            frame = client.frame(**asked)
+            cloud = frame.values("cloud")
+            self.assertEqual(set(frame.values("color")[..., 3].ravel()), {1.0})
+            self.assertEqual((cloud.shape[2], cloud[0, 0].tolist()), (4, [0.0] * 4))
+            client.load_scene(name, private=True, set=["image.background=false"])
+            frame = client.frame(**asked)
+            numpy.testing.assert_array_equal(frame.values("color"), frame.values("cloud"))
+            self.assertGreater(frame.values("color")[..., 3].max(), 0.1)
+            picture = Image.open(io.BytesIO(client.frame(encoding="png").file()))
+            self.assertEqual((picture.mode, picture.getpixel((0, 0))), ("RGBA", (0, 0, 0, 0)))
+            self.assertEqual(Image.open(io.BytesIO(client.frame(encoding="jpeg").file())).mode, "RGB")
 
     def test_the_latest_wins(self):
         with self.server.client() as client:

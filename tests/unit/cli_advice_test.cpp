@@ -62,6 +62,16 @@ TEST_F(Advice, TheWrongWordIsNamedWithTheNearest) {
     EXPECT_EQ(blamed({"--thread", "2", "render"}), "unknown option \"--thread\" (lumulus): did you mean --threads?");
 }
 
+TEST_F(Advice, DashesOfTypography) {
+    for (const char* word : {"\u2014quality", "\u2013quality", "\u2013-quality", "\u2013\u2013quality"})
+        EXPECT_EQ(blamed({"render", "s.toml", word, "draft"}),
+                  "unknown option \"" + std::string(word) +
+                      "\" (lumulus render): did you mean --quality, with plain dashes?");
+    EXPECT_THAT(blamed({"render", "\u2013o", "a.png"}), HasSubstr("did you mean -o, with plain dashes?"));
+    EXPECT_THAT(blamed({"render", "\u2014qualty", "draft"}), HasSubstr("did you mean --quality?"));
+    EXPECT_EQ(blamed({"render", "\u2014"}), "nothing") << "a name like any other";
+}
+
 TEST_F(Advice, WhereNothingIsNear) {
     EXPECT_THAT(blamed({"denoise"}), HasSubstr("the commands are render, fetch"));
     EXPECT_THAT(blamed({"s.toml"}), HasSubstr("did you mean lumulus render s.toml?"));
