@@ -67,16 +67,17 @@ inline void feed(std::span<const std::byte> input) {
     const TemporaryFolder folder;
     const std::filesystem::path place = folder / "uploads";
     {
-        UploadStore store(place, service::test::mostUploadBytes);
+        UploadStore store(place, {service::test::mostUploadBytes, service::test::mostUploadBytes, 3600.0});
         for (std::size_t at = 0; at + 6 <= input.size() && at < 6 * mostSteps; at += 6) {
             const service::test::UploadStep step(input.subspan(at).first<6>());
             const unsigned flags = service::test::byteOf(step, 0);
             const ClientId client = 1U + (flags & 3U);
             if ((flags & 128U) != 0) {
-                store.dropClient(client);
+                store.dropConnection(client);
             } else {
                 try {
-                    store.receive(client, std::get<Upload>(parseRequest(service::test::uploadMessage(step), {})));
+                    store.receive(client, client % 2 == 0 ? "even" : "odd",
+                                  std::get<Upload>(parseRequest(service::test::uploadMessage(step), {})));
                 } catch (const RequestError& error) {
                     promise(!error.code.empty(), "an error has a code");
                 }
