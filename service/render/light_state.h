@@ -15,7 +15,7 @@ namespace lumulus::service {
 /// changes; all without it.
 bool changesLight(const scene::Scene& scene, const LightChange& change, std::optional<std::size_t> cloud);
 
-/// The light of a renderer that clients change, and the one of before, which comes back where the new one turns out to
+/// The light of a renderer that clients change, and the one of before, which comes back where the new one proves to
 /// be too much work.
 class LightState {
   public:

@@ -154,7 +154,7 @@ void GenerationTracer::recordSort(const shared::GatherPush& push) {
     commands_.barrier("sorted records");
 }
 
-/// Halves the steps of a round: between rounds work can be cut off. Photons go the same ways, whatever their number.
+/// Divides by two the steps of a round: between rounds work can be cut off. Photons go the same ways, whatever their number.
 void GenerationTracer::shortenRounds() {
     constexpr std::uint32_t fewest = 16;
     std::uint32_t& steps = params_.mapped<shared::TraceParams>()[0].stepLimit;
