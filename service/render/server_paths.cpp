@@ -1,6 +1,7 @@
 #include "service/render/server_paths.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <functional>
 
@@ -13,9 +14,17 @@ namespace {
 constexpr std::string_view uploadMark = "upload sha256:", suffix = ".vdb";
 constexpr std::size_t hashDigits = 64;
 
+bool isOfPath(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_' || c == '-' || c == '/';
+}
+
+/// Replaces what paths begin with.
 void replaceAll(std::string& text, const std::string& from, const std::string& to) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-        text.replace(at, from.size(), to);
+    for (std::size_t at = text.find(from); at != std::string::npos;) {
+        const bool begins = at == 0 || !isOfPath(text[at - 1]);
+        if (begins) text.replace(at, from.size(), to);
+        at = text.find(from, at + (begins ? to.size() : 1));
+    }
 }
 
 }  // namespace
@@ -32,6 +41,11 @@ ServerPaths::ServerPaths(const RenderConfig& config) {
     };
     add(config.uploads, std::string(uploadMark));
     add(config.scenes, "");
+    // and what a scene means by ../ and ../../
+    std::string name = "../";
+    for (fs::path above = fs::absolute(config.scenes).lexically_normal().parent_path();
+         !config.scenes.empty() && above != above.root_path(); above = above.parent_path(), name += "../")
+        add(above, name);
     std::ranges::stable_sort(replacements_, std::greater{}, [](const auto& entry) { return entry.first.size(); });
 }
 

@@ -87,6 +87,7 @@ class Hostile(ServiceTest):
                 with self.assertRaises(ServiceError) as caught:
                     client.load_scene(toml=text)
                 self.assertIn("does not exist", str(caught.exception), vdb)
+                self.assertNotIn(self.server.folder, str(caught.exception))
                 self.assertEqual(self.refused(client, "load_scene",
                                               {"name": "small.toml", "set": [f'cloud.0.vdb="{vdb}"']}), "bad_request")
 

@@ -65,6 +65,8 @@ TEST(ServerPaths, RepliesNameFilesAsClientsDo) {
     EXPECT_EQ(paths.hidden("/srv/lumulus/scenes/a/b.toml:3, cloud.0"), "a/b.toml:3, cloud.0");
     EXPECT_EQ(paths.hidden("/srv/lumulus/uploads/"), "upload sha256:");
     EXPECT_EQ(paths.hidden("nothing to hide"), "nothing to hide");
+    EXPECT_EQ(paths.hidden("/srv/lumulus/x.vdb and /srv/y.vdb"), "../x.vdb and ../../y.vdb");
+    EXPECT_EQ(paths.hidden("mine/srv/lumulus/scenes/x.vdb, /etc/x.vdb"), "mine/srv/lumulus/scenes/x.vdb, /etc/x.vdb");
     Reply reply = Failure{"bad_request", "see /srv/lumulus/scenes/x.vdb", {}};
     paths.hide(reply);
     EXPECT_EQ(std::get<Failure>(reply).text, "see x.vdb");
