@@ -100,9 +100,15 @@ void writeAll(const Descriptor& file, std::span<const std::byte> bytes, const fs
         const std::size_t chunk = std::min<std::size_t>(bytes.size(), std::size_t{1} << 30);
         const ::ssize_t written = ::write(file.get(), bytes.data(), chunk);
         if (written < 0 && errno == EINTR) continue;
+        if (written < 0 && errno == EPIPE) return;  // the reader of the pipe has read enough
         if (written < 0) failWrite(path, errno);
         bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
+}
+
+bool isSpecial(const fs::path& path) {
+    std::error_code ec;
+    return fs::exists(path, ec) && !fs::is_regular_file(path, ec);
 }
 
 /// The file that a path leads to when its symbolic links are followed, also one that does not exist yet.
@@ -140,7 +146,8 @@ fs::path resolve(const fs::path& path) {
     if (fs::is_directory(path, ec)) {
         throw InputError("cannot write there: it is a folder", path.string(), "give the name of a file");
     }
-    const fs::path target = followed(path);
+    // the links of /dev/stdout and /dev/fd to a pipe lead to no name
+    const fs::path target = isSpecial(path) ? path : followed(path);
     const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
     const fs::file_status status = fs::status(parent, ec);
     if (status.type() == fs::file_type::not_found) {
@@ -153,11 +160,6 @@ fs::path resolve(const fs::path& path) {
     }
     requireWritable(target, path);
     return parent / target.filename();
-}
-
-bool isSpecial(const fs::path& path) {
-    std::error_code ec;
-    return fs::exists(path, ec) && !fs::is_regular_file(path, ec);
 }
 
 Descriptor openSpecial(const fs::path& path) {

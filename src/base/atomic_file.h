@@ -8,7 +8,8 @@ namespace lumulus {
 
 /// Writes a whole file. A temporary file beside it is written, synchronised and renamed, so that the name never stands
 /// for half a file. Symbolic links are followed, also one whose target does not exist yet. A file that existed before
-/// keeps its permissions, and its owner where the system allows that. Devices and pipes are written to directly.
+/// keeps its permissions, and its owner where the system allows that. Devices and pipes are written to directly;
+/// a pipe whose reader goes away has been read enough.
 /// Errors: InputError where the place cannot be written to or the file there may not be, Error where writing fails
 /// (disk full). In both cases the temporary file is removed and a file that existed before is unchanged.
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);

@@ -130,6 +130,10 @@ class Pipes(CommandLine):
                 self.assertEqual((result.returncode, result.stderr), (0, ""))
         self.assertTrue((self.folder / "b.png").exists())
 
+    def test_outputs_that_are_pipes(self):
+        render = ["render", "s.toml", *SMALL, "-o", "b.png", "--stats", "/dev/stdout"]
+        self.assertEqual(json.loads(self.succeeds(*render))["photons"], 1000)
+
 
 class Threads(CommandLine):
     def limited(self, threads):

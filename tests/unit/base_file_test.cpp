@@ -172,6 +172,22 @@ TEST(AtomicFile, FullDeviceFailsAndStaysADevice) {
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
+/// /dev/stdout of a pipeline and the >(…) of shells are links to a pipe that has no name.
+TEST(AtomicFile, WritesIntoPipes) {
+    installSignalHandlers();  // SIGPIPE would kill the process
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    const fs::path name = "/dev/fd/" + std::to_string(ends[1]);
+    checkWritable(name);
+    writeFile(name, bytesOf("text"));
+    char read[5] = {};
+    EXPECT_EQ(::read(ends[0], read, 4), 4);
+    EXPECT_STREQ(read, "text");
+    ::close(ends[0]);
+    EXPECT_NO_THROW(writeFile("/proc/self/fd/" + std::to_string(ends[1]), bytesOf("text")));
+    ::close(ends[1]);
+}
+
 TEST(AtomicFile, FullDiskKeepsTheOldFileAndNoTemporary) {
     installSignalHandlers();  // SIGXFSZ would kill the process
     const TemporaryFolder folder;
