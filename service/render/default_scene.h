@@ -34,6 +34,7 @@ class DefaultScene {
     const std::string& key() const { return source_.key; }
     /// Gives up the load: neither function of the host is called any more.
     void abandon() { abandoned_ = true; }
+    bool abandoned() const { return abandoned_; }
 
   private:
     void load();

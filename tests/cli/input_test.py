@@ -84,7 +84,7 @@ class Input(CliTest):
         loud = self.run_lumulus("render", ball, "-o", self.out / "a.exr", *SMALL[1:])
         self.assertRegex(loud.stderr.splitlines()[-1], "ball.vdb is an OpenVDB file")
         changed, _, _ = self.picture(ball, "--set", "cloud.0.extinction=2")
-        self.assertNotEqual(changed["A"], by_file["A"])
+        self.assertNotEqual(changed["cloud.A"], by_file["cloud.A"])
         self.picture(ball, "--spp", 1, command="reference")
 
     def test_standard_input(self):

@@ -100,7 +100,7 @@ class Reference(CliTest):
                        ["--set", "cloud.0.extinction=0.021"], ["--set", "cloud.0.resolution=17"],
                        ["--set", "cloud.0.phase.g=0.8"], ["--set", "sun.azimuth=71"], ["--set", "sky.radiance=1"],
                        ["--set", "camera.vertical_fov=41"], ["--set", "image.width=31"]):
-            result = self.run_lumulus("reference", self.path, "-o", self.picture, "--resume", "--spp", 3, *change)
+            result = self.run_lumulus("reference", self.path, "-o", self.picture, "--resume", "--spp", 3, "--quiet", *change)
             self.assertIn("another scene, seed or majorant", self.one_line(result, 2), change)
         self.assertEqual(before, {path.name: path.read_bytes() for path in self.out.iterdir()})
         for sums, says in ((None, "exact sums of the picture are missing"), (before["a.exr.sums"][:5000], "damaged"), (b"", "damaged")):

@@ -136,8 +136,11 @@ async function checkFrames(client) {
     assert.ok(depth[0] >= 1e10 && depth[middle] < 1e10, "depth is 10^10 where there is no cloud");
     // azimuth 90 is +X, elevation 90 the zenith
     await client.ask("frame", {width: 16, height: 12, sun: {azimuth: 90, elevation: 0}});
+    const light = (await client.ask("statistics", {})).json.scene;
+    assert.ok(light.own, "light that a client has changed is its own");
+    light.sun.direction_to.forEach((x, axis) => assert.ok(Math.abs(x - [1, 0, 0][axis]) < 1e-9));
     const scene = (await client.ask("load_scene", {name: "small.toml"})).json;
-    scene.sun.direction_to.forEach((x, axis) => assert.ok(Math.abs(x - [1, 0, 0][axis]) < 1e-9));
+    assert.deepEqual(scene.sun, scene.original.sun, "who loads a scene sees it as it was loaded");
     // a panorama that looks north (-Z) from the west of the cloud has it in the east: three quarters from the left
     const [x, y, z] = scene.center, west = x - 4 * scene.radius;
     const camera = {position: [west, y, z], target: [west, y, z - 1], projection: "panorama"};
