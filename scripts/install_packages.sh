@@ -12,8 +12,9 @@ packages=(
     libcairo2-dev fonts-dejavu-core
     # Vulkan: headers, loader, a driver that runs on the CPU, validation
     libvulkan-dev libvulkan-volk-dev libspirv-cross-c-shared-dev mesa-vulkan-drivers vulkan-validationlayers
-    # the frame service and its tests: a browser, a proxy
-    libboost-dev libssl-dev prometheus-cpp-dev chromium chromium-driver python3-selenium nginx-light libnginx-mod-stream openssl
+    # the frame service and its tests: a browser, proxies, another language, an auditor
+    libboost-dev libssl-dev prometheus-cpp-dev libsystemd-dev chromium chromium-driver
+    python3-selenium nginx-light libnginx-mod-stream haproxy nodejs node-ws systemd openssl
     # the rest
     libcli11-dev libfmt-dev libglm-dev libtomlplusplus-dev nlohmann-json3-dev libgmock-dev libgtest-dev
 )

@@ -189,7 +189,7 @@ std::string Client::upload(const std::string& path) {
         size += chunk.size();
     }
     if (size == 0) throw ClientError("bad_request", path + " cannot be read, or is empty");
-    const std::string hash = sha.hex();
+    const std::string hash = "sha256:" + sha.hex();
     file.clear();
     file.seekg(0);
     for (std::uint64_t offset = 0; offset < size;) {

@@ -83,6 +83,8 @@ void readSizes(ConfigReader& reader, Config& config) {
     megabytes("limits.payload_megabytes", limits.messages.payloadBytes);
     megabytes("limits.upload_megabytes", render.requests.uploadBytes);
     megabytes("limits.upload_folder_megabytes", render.uploadFolderBytes);
+    megabytes("limits.upload_client_megabytes", render.uploadClientBytes);
+    megabytes("limits.memory_megabytes", render.memoryBytes);
     std::uint64_t kilobytes = limits.messages.jsonBytes >> 10U;
     reader.count("limits.json_kilobytes", kilobytes, 4, 16384);
     limits.messages.jsonBytes = static_cast<std::uint32_t>(kilobytes << 10U);
@@ -92,6 +94,8 @@ void readLimits(ConfigReader& reader, Config& config) {
     RenderLimits& render = config.render.limits;
     ConnectionLimits& limits = config.limits;
     reader.count("limits.connections", limits.connections, 1, 4096);
+    reader.count("limits.http_connections", limits.httpConnections, 1, 4096);
+    reader.number("limits.token_guesses_per_second", limits.guessesPerSecond, 0.001, 1e6);
     reader.count("limits.queued_frames", render.queuedFrames, 1, 1024);
     reader.count("limits.streams", render.streams, 1, 1024);
     reader.count("limits.scenes", render.scenes, 1, 64);
@@ -106,6 +110,11 @@ void readLimits(ConfigReader& reader, Config& config) {
     reader.number("limits.hello_seconds", limits.helloSeconds, 0.1, 1e5);
     reader.number("limits.message_seconds", limits.messageSeconds, 0.1, 1e5);
     reader.number("limits.write_seconds", limits.writeSeconds, 0.1, 1e5);
+    double kilobytes = limits.writeBytesPerSecond / 1024.0;
+    reader.number("limits.write_kilobytes_per_second", kilobytes, 0.0, 1e6);
+    limits.writeBytesPerSecond = kilobytes * 1024.0;
+    reader.number("limits.upload_hours", render.uploadHours, 0.001, 1e6);
+    reader.number("limits.heartbeat_seconds", render.heartbeatSeconds, 0.1, 1e5);
     reader.number("limits.idle_seconds", limits.idleSeconds, 0.1, 1e7);
     reader.number("limits.shutdown_seconds", render.shutdownSeconds, 0.0, 1e5);
 }

@@ -24,12 +24,15 @@ TcpAddress parseAddress(const std::string& text, const std::string& where);
 
 /// Limits of connections.
 struct ConnectionLimits {
-    std::uint32_t connections = 128;
-    double requestsPerSecond = 2000.0;  ///< of one connection, read; more wait in the socket
-    double helloSeconds = 5.0;          ///< from connecting to hello
-    double messageSeconds = 30.0;       ///< from the first byte of a message to its last
-    double writeSeconds = 10.0;         ///< for a client to take what it was sent
-    double idleSeconds = 600.0;         ///< without a message, a stream or a frame under way
+    std::uint32_t connections = 128;      ///< to the frame ports
+    std::uint32_t httpConnections = 128;  ///< to the HTTP port, WebSockets among them
+    double guessesPerSecond = 1.0;        ///< of the token, wrong, from one address
+    double requestsPerSecond = 2000.0;    ///< of one connection, read; more wait in the socket
+    double helloSeconds = 5.0;            ///< from connecting to hello
+    double messageSeconds = 30.0;         ///< from the first byte of a message to its last
+    double writeSeconds = 10.0;           ///< a period in which a client has to take so much as the next line says
+    double writeBytesPerSecond = 16384.0;
+    double idleSeconds = 600.0;  ///< without a message, a stream or a frame under way
     MessageLimits messages;
 };
 

@@ -1,11 +1,14 @@
 #include "service/net/frame_server.h"
 
+#include <sys/socket.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 
 #include "base/error.h"
 #include "service/net/link.h"
+#include "service/net/refusal.h"
+#include "service/protocol/error_reply.h"
 
 namespace lumulus::service {
 
@@ -14,12 +17,13 @@ namespace {
 using Stream = asio::generic::stream_protocol::socket;
 using Local = asio::local::stream_protocol;
 
-constexpr std::size_t readBytes = 64UL << 10U;
+constexpr std::size_t readBytes = 64UL << 10U, strangerBytes = 4UL << 10U;
+constexpr std::size_t refusalsAtOnce = 32;
 
 /// Bytes over a stream socket.
 class StreamCarrier {
   public:
-    explicit StreamCarrier(Stream socket) : socket_(std::move(socket)), buffer_(readBytes) {}
+    explicit StreamCarrier(Stream socket) : socket_(std::move(socket)), buffer_(strangerBytes) {}
 
     auto executor() { return socket_.get_executor(); }
 
@@ -36,6 +40,8 @@ class StreamCarrier {
         co_return co_await socket_.async_write_some(buffers, intoError(error));
     }
 
+    void trust() { buffer_.resize(readBytes); }
+
     void close() {
         error_code ignored;
         socket_.shutdown(Stream::shutdown_both, ignored);
@@ -47,11 +53,16 @@ class StreamCarrier {
     std::vector<std::byte> buffer_;
 };
 
-void start(Stream socket, Hub& hub, const std::string& from) {
-    const auto executor = socket.get_executor();
-    auto link = std::make_shared<Link<StreamCarrier>>(StreamCarrier(std::move(socket)), hub);
-    asio::co_spawn(
-        executor, [link, from] { return link->run(from); }, asio::detached);
+/// Of the user at the other end of a Unix socket.
+std::string userText(Local::socket& socket) {
+    ::ucred user{};
+    ::socklen_t size = sizeof(user);
+    const bool known = ::getsockopt(socket.native_handle(), SOL_SOCKET, SO_PEERCRED, &user, &size) == 0;
+    return known ? "unix uid " + std::to_string(user.uid) : "unix";
+}
+
+std::vector<std::byte> fullText() {
+    return encodeHead(errorReply(0, "busy", "too many connections are open: try again later"));
 }
 
 bool answers(asio::io_context& io, const std::filesystem::path& path) {
@@ -79,20 +90,33 @@ std::string addressText(const Tcp::endpoint& endpoint) {
     return endpoint.address().is_v6() ? "[" + host + "]:" + port : host + ":" + port;
 }
 
-FrameServer::FrameServer(asio::io_context& io, Hub& hub) : io_(io), hub_(hub) {}
+FrameServer::FrameServer(asio::io_context& io, Hub& hub)
+    : io_(io), hub_(hub), seats_(hub.config().limits.connections), refusals_(refusalsAtOnce) {}
+
+void FrameServer::take(Stream socket, const std::string& from) {
+    auto seat = seats_.take();
+    if (!seat) {
+        hub_.metrics().add(Metrics::connectionsRefused);
+        asio::co_spawn(io_, refuse(std::move(socket), fullText(), refusals_.take()), asio::detached);
+        return;
+    }
+    auto link = std::make_shared<Link<StreamCarrier>>(StreamCarrier(std::move(socket)), hub_);
+    asio::co_spawn(
+        io_, [link, from, seat = std::move(seat)] { return link->run(from, seat); }, asio::detached);
+}
 
 void FrameServer::listenTcp(const TcpAddress& address) {
     auto acceptor = std::make_shared<Tcp::acceptor>(makeAcceptor(io_, address));
     addresses_.push_back(addressText(acceptor->local_endpoint()));
     tcp_.push_back(acceptor);
-    const auto take = [this](Tcp::socket socket) {
+    const auto accepted = [this](Tcp::socket socket) {
         error_code error, ignored;
         const Tcp::endpoint from = socket.remote_endpoint(error);
         socket.set_option(Tcp::no_delay(true), ignored);
         socket.set_option(asio::socket_base::keep_alive(true), ignored);
-        if (!error) start(Stream(std::move(socket)), hub_, addressText(from));
+        if (!error) take(Stream(std::move(socket)), addressText(from));
     };
-    asio::co_spawn(io_, acceptAll(acceptor, take), asio::detached);
+    asio::co_spawn(io_, acceptAll(acceptor, accepted), asio::detached);
 }
 
 void FrameServer::listenUnix(const std::filesystem::path& path, unsigned mode) {
@@ -109,8 +133,11 @@ void FrameServer::listenUnix(const std::filesystem::path& path, unsigned mode) {
         auto acceptor = std::make_shared<Local::acceptor>(io_, Local::endpoint(path.string()));
         ::umask(before);
         local_.push_back(acceptor);
-        const auto take = [this](Local::socket socket) { start(Stream(std::move(socket)), hub_, "unix"); };
-        asio::co_spawn(io_, acceptAll(acceptor, take), asio::detached);
+        const auto accepted = [this](Local::socket socket) {
+            const std::string from = userText(socket);
+            take(Stream(std::move(socket)), from);
+        };
+        asio::co_spawn(io_, acceptAll(acceptor, accepted), asio::detached);
     } catch (const boost::system::system_error& e) {
         ::umask(before);
         throw InputError("cannot listen: " + e.code().message(), path.string(), "change listen.unix");

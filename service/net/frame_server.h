@@ -6,6 +6,7 @@
 
 #include "service/net/asio.h"
 #include "service/net/hub.h"
+#include "service/net/seats.h"
 
 namespace lumulus::service {
 
@@ -24,8 +25,11 @@ class FrameServer {
     void close();
 
   private:
+    void take(asio::generic::stream_protocol::socket socket, const std::string& from);
+
     asio::io_context& io_;
     Hub& hub_;
+    Seats seats_, refusals_;
     std::vector<std::shared_ptr<Tcp::acceptor>> tcp_;
     std::vector<std::shared_ptr<asio::local::stream_protocol::acceptor>> local_;
     std::vector<std::string> addresses_;

@@ -18,7 +18,7 @@ struct File {
 
 constexpr std::string_view script = "text/javascript; charset=utf-8";
 
-constexpr std::array<File, 17> files{{
+constexpr std::array<File, 16> files{{
     {"/", "text/html; charset=utf-8", viewer::index_html},
     {"/icon.svg", "image/svg+xml", viewer::icon_svg},
     {"/viewer.css", "text/css; charset=utf-8", viewer::viewer_css},
@@ -35,7 +35,6 @@ constexpr std::array<File, 17> files{{
     {"/upload.js", script, viewer::upload_js},
     {"/viewer.js", script, viewer::viewer_js},
     {"/viewing.js", script, viewer::viewing_js},
-    {"/health", "text/plain; charset=utf-8", "ok\n"},
 }};
 
 constexpr std::string_view plain = "text/plain; charset=utf-8";
@@ -60,7 +59,23 @@ bool amongNames(const std::string& host, const std::string& names) {
 
 }  // namespace
 
+std::string_view pathOf(const HttpQuestion& question) {
+    return question.target.substr(0, question.target.find('?'));
+}
+
+bool isProbe(const HttpQuestion& question) {
+    return pathOf(question) == "/health" || pathOf(question) == "/ready";
+}
+
+std::optional<HttpReply> malformed(const HttpQuestion& question) {
+    if (question.hosts > 1) return HttpReply{400, plain, "a request has one Host field\n"};
+    if (question.hosts == 0 && !question.oldVersion && !isProbe(question))
+        return HttpReply{400, plain, "a request of HTTP/1.1 has a Host field\n"};
+    return std::nullopt;
+}
+
 bool hostAllowed(const HttpQuestion& question, const Config& config) {
+    if (isProbe(question)) return true;  // load balancers ask without a name, or by one of their own
     const std::string host = hostName(question.host);
     if (!isNumber(host) && host != "localhost" && !amongNames(host, config.hostNames)) return false;
     if (question.origin.empty()) return true;
@@ -68,13 +83,22 @@ bool hostAllowed(const HttpQuestion& question, const Config& config) {
     return scheme != std::string_view::npos && question.origin.substr(scheme + 3) == question.host;
 }
 
-HttpReply httpReply(const HttpQuestion& question, const Config& config, const Metrics& metrics) {
-    const std::string_view target = question.target.substr(0, question.target.find('?'));
+bool tokenGiven(const HttpQuestion& question, const Config& config) {
+    return config.token.empty() || equalSecrets(question.authorization, "Bearer " + config.token);
+}
+
+HttpReply tokenWanted() {
+    return {401, plain, "metrics need the token: Authorization: Bearer TOKEN\n"};
+}
+
+HttpReply httpReply(const HttpQuestion& question, const std::optional<std::string>& notReady, const Metrics& metrics) {
+    const std::string_view target = pathOf(question);
+    if (target == "/health") return {200, plain, "ok\n"};
+    if (target == "/ready")
+        return notReady ? HttpReply{503, plain, *notReady + "\n"} : HttpReply{200, plain, "ready\n"};
     for (const File& file : files)
         if (file.target == target) return {200, file.type, std::string(file.body)};
-    if (target != "/metrics") return {404, plain, "not found: see /, /health and /metrics\n"};
-    if (!config.token.empty() && !equalSecrets(question.authorization, "Bearer " + config.token))
-        return {401, plain, "metrics need the token: Authorization: Bearer TOKEN\n"};
+    if (target != "/metrics") return {404, plain, "not found: see /, /health, /ready and /metrics\n"};
     return {200, "text/plain; version=0.0.4; charset=utf-8", metrics.prometheus()};
 }
 

@@ -5,10 +5,11 @@
 
 #include "service/net/asio.h"
 #include "service/net/hub.h"
+#include "service/net/seats.h"
 
 namespace lumulus::service {
 
-/// Serves the page for people, /health and /metrics, and the protocol over a WebSocket at /frames.
+/// Serves the page for people, /health, /ready and /metrics, and the protocol over a WebSocket at /frames.
 class HttpServer {
   public:
     HttpServer(asio::io_context& io, Hub& hub);
@@ -22,6 +23,7 @@ class HttpServer {
   private:
     asio::io_context& io_;
     Hub& hub_;
+    Seats seats_, refusals_;
     std::shared_ptr<Tcp::acceptor> acceptor_;
     std::string address_;
 };

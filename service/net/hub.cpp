@@ -5,12 +5,16 @@
 #include "service/protocol/error_reply.h"
 #include "service/protocol/replies.h"
 #include "service/render/scene_list.h"
-#include "service/telemetry/event_log.h"
 #include "service/values/request_error.h"
 
 namespace lumulus::service {
 
 namespace {
+
+/// Wrong tokens that an address may give at once.
+constexpr double guessesAtOnce = 10.0;
+/// Payloads from this size on are freed on another thread.
+constexpr std::size_t largeBytes = std::size_t{4} << 20U;
 
 SessionPolicy policyOf(const Config& config) {
     const RenderLimits& limits = config.render.limits;
@@ -22,29 +26,37 @@ SessionPolicy policyOf(const Config& config) {
 
 }  // namespace
 
-Hub::Hub(const Config& config, Post post)
+Hub::Hub(const Config& config, Instruments& instruments, Post post, std::function<void(std::exception_ptr)> begun)
     : config_(config),
+      metrics_(instruments.metrics),
+      log_(instruments.log),
+      memory_(instruments.memory),
       policy_(policyOf(config)),
       post_(std::move(post)),
-      uploads_(config.render.uploads, config.render.limits.uploadFolderBytes),
-      bridge_(config.render, metrics_, [this](ClientId client, Message reply, bool frame) {
-          // std::function wants what can be copied
-          auto shared = std::make_shared<Message>(std::move(reply));
-          post_([this, client, shared, frame] { deliver(client, std::move(*shared), frame); });
-      }) {}
+      guard_(config.limits.guessesPerSecond, guessesAtOnce),
+      uploads_(config.render, instruments,
+               [this](ClientId client, Message reply) {
+                   auto shared = std::make_shared<Message>(std::move(reply));  // std::function wants what can be copied
+                   post_([this, client, shared] { stored(client, std::move(*shared)); });
+               }),
+      bridge_(
+          config.render, instruments,
+          [this](ClientId client, RenderBridge::Outbound outbound) {
+              auto shared = std::make_shared<RenderBridge::Outbound>(std::move(outbound));
+              post_([this, client, shared] { deliver(client, std::move(*shared)); });
+          },
+          [this, begun = std::move(begun)](const std::exception_ptr& error) {
+              post_([begun, error] { begun(error); });
+          }) {}
 
 std::shared_ptr<Peer> Hub::open(const std::string& from, std::function<void()> wake) {
-    if (full()) {
-        metrics_.add(Metrics::connectionsRefused);
-        return nullptr;
-    }
     const ClientId client = nextClient_++;
-    auto peer = std::make_shared<Peer>(client, from, policy_, config_.limits, std::move(wake));
+    auto peer = std::make_shared<Peer>(client, from, policy_, config_.limits, memory_, std::move(wake));
     peers_[client] = peer;
     bridge_.service().addClient(client);
     metrics_.add(Metrics::connectionsOpened);
     metrics_.set(Metrics::connectionsOpen, static_cast<std::int64_t>(peers_.size()));
-    logEvent("info", "connected", {{"client", client}, {"from", from}});
+    log_.event("info", "connected", {{"client", client}, {"from", from}});
     return peer;
 }
 
@@ -52,17 +64,32 @@ void Hub::close(const std::shared_ptr<Peer>& peer, const std::string& why) {
     if (peers_.erase(peer->client()) == 0) return;
     peer->closeNow();
     bridge_.service().removeClient(peer->client());
-    uploads_.dropClient(peer->client());
-    if (!peer->greeted()) metrics_.add(Metrics::tokensRefused);
+    uploads_.dropConnection(peer->client());
     metrics_.set(Metrics::connectionsOpen, static_cast<std::int64_t>(peers_.size()));
-    logEvent("info", "disconnected", {{"client", peer->client()}, {"name", peer->name()}, {"why", why}});
+    log_.event("info", "disconnected", {{"client", peer->client()}, {"name", peer->name()}, {"why", why}});
 }
 
-void Hub::received(Peer& peer, std::span<const std::byte> bytes) {
-    metrics_.add(Metrics::bytesReceived, static_cast<std::int64_t>(bytes.size()));
+Clock::duration Hub::mayGuess(const std::string& from) {
+    return config_.token.empty() ? Clock::duration::zero() : guard_.take(originOf(from), Clock::now());
+}
+
+void Hub::guessed(const std::string& from, bool right) {
+    if (right) {
+        guard_.giveBack(originOf(from));
+        return;
+    }
+    metrics_.add(Metrics::tokensRefused);
+    log_.event("warning", "token_refused", {{"from", from}});
+}
+
+void Hub::received(Peer& peer, std::span<const std::byte>& bytes) {
+    const std::size_t before = bytes.size();
+    const bool known = peer.greeted();
     Session::Result result = peer.receive(bytes, Clock::now());
+    metrics_.add(Metrics::bytesReceived, static_cast<std::int64_t>(before - bytes.size()));
     metrics_.add(Metrics::requestsRefused, static_cast<std::int64_t>(result.refusals));
-    for (Message& reply : result.replies) peer.enqueue(std::move(reply), false);
+    if (!known && (peer.greeted() || result.close)) guessed(peer.from(), !peer.wrongToken());
+    for (Message& reply : result.replies) peer.enqueue(std::move(reply));
     for (Incoming& incoming : result.requests) dispatch(peer, std::move(incoming));
     if (result.close) peer.closeAfterWriting();
 }
@@ -74,55 +101,66 @@ void Hub::dispatch(Peer& peer, Incoming incoming) {
     const bool known = !peer.began(id);
     if (known && !std::holds_alternative<StartStream>(incoming.request)) {
         metrics_.add(Metrics::requestsRefused);
-        peer.enqueue(errorReply(id, "bad_request", "a request with this id is under way"), false);
+        peer.enqueue(errorReply(id, "bad_request", "a request with this id is under way"));
         return;
     }
     try {
-        if (const auto* chunk = std::get_if<Upload>(&incoming.request)) {
-            peer.enqueue(upload(peer, id, *chunk), false);
-            peer.ended(id);
-        } else if (std::holds_alternative<StatisticsRequest>(incoming.request)) {
-            RenderService& service = bridge_.service();
-            const std::optional<LoadState> loading = service.loadState(peer.client());
-            peer.enqueue(statisticsReply(id, metrics_.values(), service.sceneState(peer.client()), loading), false);
-            peer.ended(id);
-        } else if (std::holds_alternative<ListScenes>(incoming.request)) {
-            peer.enqueue(scenesReply(id, sceneNames(config_.render.scenes)), false);
-            peer.ended(id);
-        } else if (auto request = renderRequest(std::move(incoming.request))) {
-            if (const auto* stop = std::get_if<StopStream>(&*request)) peer.ended(stop->stream);
-            bridge_.service().submit(peer.client(), id, std::move(*request));
-        }
+        answer(peer, std::move(incoming));
     } catch (const RequestError& e) {
         if (!known) peer.ended(id);
         metrics_.add(Metrics::requestsRefused);
-        peer.enqueue(errorReply(id, e.code, e.what(), e.where), false);
+        peer.enqueue(errorReply(id, e.code, e.what(), e.where));
     }
 }
 
-Message Hub::upload(Peer& peer, std::uint64_t id, const Upload& chunk) {
-    try {
-        const UploadStore::Progress progress = uploads_.receive(peer.client(), chunk);
-        if (progress.complete) metrics_.add(Metrics::uploadsCompleted);
-        return uploadReply(id, progress.received, progress.complete);
-    } catch (const RequestError& e) {
-        metrics_.add(Metrics::uploadsFailed);
-        logEvent("warning", "upload_failed", {{"client", peer.client()}, {"code", e.code}, {"message", e.what()}});
-        throw;
+void Hub::answer(Peer& peer, Incoming incoming) {
+    const std::uint64_t id = incoming.id;
+    const std::string owner = originOf(peer.from());
+    Request& request = incoming.request;
+    const auto memoryFor = [&](MemoryBudget::Use use) { return memory_.hold(use, incoming.payloadBytes); };
+    if (auto* piece = std::get_if<Upload>(&request)) {
+        peer.storing();
+        uploads_.receive(peer.client(), owner, id, std::move(*piece), memoryFor(MemoryBudget::uploads));
+    } else if (std::holds_alternative<ListUploads>(request)) {
+        peer.storing();
+        uploads_.list(peer.client(), owner, id);
+    } else if (const auto* file = std::get_if<DeleteUpload>(&request)) {
+        peer.storing();
+        uploads_.remove(peer.client(), owner, id, file->hash);
+    } else if (std::holds_alternative<StatisticsRequest>(request)) {
+        RenderService& service = bridge_.service();
+        const std::optional<LoadState> loading = service.loadState(peer.client());
+        peer.enqueue(statisticsReply(id, metrics_.values(), service.sceneState(peer.client()), loading));
+        peer.ended(id);
+    } else if (std::holds_alternative<ListScenes>(request)) {
+        peer.enqueue(scenesReply(id, sceneNames(config_.render.scenes)));
+        peer.ended(id);
+    } else if (auto wanted = renderRequest(std::move(request))) {
+        if (const auto* stop = std::get_if<StopStream>(&*wanted)) peer.ended(stop->stream);
+        bridge_.service().submit(peer.client(), id, std::move(*wanted), memoryFor(MemoryBudget::messages));
     }
 }
 
-void Hub::deliver(ClientId client, Message reply, bool frame) {
+void Hub::stored(ClientId client, Message reply) {
     const auto it = peers_.find(client);
     if (it == peers_.end()) return;
-    if (reply.type != replyTo(MessageType::startStream)) it->second->ended(reply.id);
-    it->second->enqueue(std::move(reply), frame);
+    it->second->ended(reply.id);
+    it->second->enqueue(std::move(reply));
+    it->second->stored();
+}
+
+void Hub::deliver(ClientId client, RenderBridge::Outbound outbound) {
+    const auto it = peers_.find(client);
+    if (it == peers_.end()) return;
+    if (outbound.message.type != replyTo(MessageType::startStream)) it->second->ended(outbound.message.id);
+    it->second->enqueue(std::move(outbound.message), outbound.frame, std::move(outbound.memory));
 }
 
 void Hub::sent(Peer& peer, std::size_t bytes, bool complete) {
     metrics_.add(Metrics::bytesSent, static_cast<std::int64_t>(bytes));
-    const auto out = peer.wrote(complete, Clock::now());
+    auto out = peer.wrote(bytes, complete);
     if (out && out->frame) bridge_.service().frameSent(peer.client());
+    if (out && out->payload.size() > largeBytes) bridge_.dispose(std::move(out->payload), std::move(out->memory));
 }
 
 void Hub::watch(Clock::time_point now) {
@@ -133,6 +171,9 @@ void Hub::watch(Clock::time_point now) {
         metrics_.add(Metrics::timeouts);
         close(peer, why);
     }
+    if (now < expiry_) return;
+    uploads_.expire();
+    expiry_ = now + std::chrono::minutes(1);
 }
 
 void Hub::closeAll() {

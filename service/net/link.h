@@ -16,6 +16,7 @@ namespace lumulus::service {
 /// - `awaitable<std::span<const std::byte>> read(error_code&)`: what came, valid until the next call;
 /// - `awaitable<std::size_t> write(head, payload, done, error_code&)`: writes some of both together, beginning at byte
 ///   `done`, and returns how many bytes;
+/// - `trust()`: who sends has said hello, and may send more at once;
 /// - `close()`: ends what waits for either.
 template <class Carrier>
 class Link : public std::enable_shared_from_this<Link<Carrier>> {
@@ -25,13 +26,12 @@ class Link : public std::enable_shared_from_this<Link<Carrier>> {
         wake_.expires_at(asio::steady_timer::time_point::max());
     }
 
-    /// Serves until the connection ends; `from` is its address, for the log.
-    asio::awaitable<void> run(std::string from) {
+    /// Serves until the connection ends. `from` is its address, for the log; `seat` is taken meanwhile.
+    asio::awaitable<void> run(std::string from, [[maybe_unused]] std::shared_ptr<void> seat) {
         const std::weak_ptr<Link> weak = this->weak_from_this();
         peer_ = hub_.open(from, [weak] {
             if (const auto self = weak.lock()) self->notify();
         });
-        if (!peer_) co_return;
         asio::co_spawn(
             carrier_.executor(), [self = this->shared_from_this()] { return self->write(); }, asio::detached);
         co_await read();
@@ -52,18 +52,42 @@ class Link : public std::enable_shared_from_this<Link<Carrier>> {
         co_await wake_.async_wait(intoError(woken));
     }
 
+    asio::awaitable<void> pauseFor(Clock::duration time) {
+        error_code ignored;
+        pause_.expires_after(time);
+        co_await pause_.async_wait(intoError(ignored));
+    }
+
+    /// Waits until the address may give a token.
+    asio::awaitable<void> admit() {
+        while (!peer_->closing()) {
+            const auto wait = hub_.mayGuess(peer_->from());
+            if (wait == Clock::duration::zero()) co_return;
+            co_await pauseFor(wait);
+        }
+    }
+
+    /// Answers what came, a few messages at a time, as the client reads the answers.
+    asio::awaitable<void> answer(std::span<const std::byte> bytes) {
+        while (!bytes.empty() && !peer_->closing()) {
+            hub_.received(*peer_, bytes);
+            while (peer_->overfull() && !peer_->closing()) co_await sleep();
+            if (const auto wait = peer_->pause(Clock::now()); wait > Clock::duration::zero()) co_await pauseFor(wait);
+            // other connections have the thread between the messages of this one
+            if (!bytes.empty()) co_await asio::post(carrier_.executor(), asio::use_awaitable);
+        }
+    }
+
     asio::awaitable<void> read() {
         error_code error;
+        bool admitted = false;
         while (!peer_->closing()) {
             const std::span<const std::byte> bytes = co_await carrier_.read(error);
             if (error) break;
-            hub_.received(*peer_, bytes);
-            while (peer_->overfull() && !peer_->closing()) co_await sleep();
-            if (const auto wait = peer_->pause(Clock::now()); wait > Clock::duration::zero()) {
-                error_code ignored;
-                pause_.expires_after(wait);
-                co_await pause_.async_wait(intoError(ignored));
-            }
+            if (!admitted) co_await admit();
+            admitted = true;
+            co_await answer(bytes);
+            if (peer_->greeted()) carrier_.trust();
         }
         // what a client is told last, it should be able to read
         while (!error && !peer_->finished()) co_await sleep();

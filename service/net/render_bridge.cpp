@@ -78,18 +78,25 @@ std::optional<RenderRequest> renderRequest(Request request) {
         std::move(request));
 }
 
-RenderBridge::RenderBridge(const RenderConfig& config, Metrics& metrics, Send send)
-    : send_(std::move(send)), encoders_(encoderThreads()), service_(config, metrics, outlets()) {}
+RenderBridge::RenderBridge(const RenderConfig& config, Instruments& instruments, Send send,
+                           std::function<void(std::exception_ptr)> begun)
+    : memory_(instruments.memory),
+      paths_(config),
+      send_(std::move(send)),
+      encoders_(encoderThreads()),
+      service_(config, instruments, outlets(std::move(begun))) {}
 
 RenderBridge::~RenderBridge() {
     encoders_.stop();  // they call the service, which ends after this
 }
 
-RenderService::Outlets RenderBridge::outlets() {
+RenderService::Outlets RenderBridge::outlets(std::function<void(std::exception_ptr)> begun) {
     RenderService::Outlets outlets;
-    outlets.reply = [this](ClientId client, std::uint64_t id, const Reply& reply) {
-        send_(client, encodeReply(id, reply), false);
+    outlets.reply = [this](ClientId client, std::uint64_t id, Reply reply) {
+        paths_.hide(reply);
+        send_(client, {encodeReply(id, reply), false, {}});
     };
+    outlets.begun = std::move(begun);
     outlets.encode = [this](FrameTask task) {
         const ClientId client = task.job.client;
         // std::function wants what can be copied
@@ -100,6 +107,13 @@ RenderService::Outlets RenderBridge::outlets() {
     return outlets;
 }
 
+void RenderBridge::dispose(std::vector<std::byte> bytes, MemoryBudget::Share memory) {
+    constexpr ClientId nobody = 0;
+    auto gone =
+        std::make_shared<std::pair<std::vector<std::byte>, MemoryBudget::Share>>(std::move(bytes), std::move(memory));
+    encoders_.submit(nobody, [gone = std::move(gone)]() mutable { gone.reset(); });
+}
+
 void RenderBridge::encode(const FrameTask& task) {
     const Job& job = task.job;
     try {
@@ -107,7 +121,8 @@ void RenderBridge::encode(const FrameTask& task) {
         const auto* const frame = std::get_if<FrameResult>(&task.result);
         Message message = frame != nullptr ? encoded<FrameRequest>(job, *frame, report)
                                            : encoded<Composite>(job, std::get<CompositeResult>(task.result), report);
-        service_.finish(task, report, [&] { send_(job.client, std::move(message), true); });
+        MemoryBudget::Share memory = memory_.hold(MemoryBudget::frames, message.json.size() + message.payload.size());
+        service_.finish(task, report, [&] { send_(job.client, {std::move(message), true, std::move(memory)}); });
     } catch (const Cancelled&) {
         service_.failEncoding(task, {"cancelled", "cancelled on request", {}});
     } catch (const std::exception& e) {

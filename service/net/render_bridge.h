@@ -7,6 +7,7 @@
 #include "service/protocol/message.h"
 #include "service/protocol/requests.h"
 #include "service/render/render_service.h"
+#include "service/render/server_paths.h"
 
 namespace lumulus::service {
 
@@ -14,22 +15,33 @@ namespace lumulus::service {
 /// of their own, so that the next one is drawn meanwhile.
 class RenderBridge {
   public:
-    /// Takes a message for a client; `frame` tells that it is a picture, whose departure is to be told by frameSent().
-    /// Called on any thread, and while the service is locked: it must not call the service.
-    using Send = std::function<void(ClientId, Message, bool frame)>;
+    /// A message on its way to a client.
+    struct Outbound {
+        Message message;
+        bool frame = false;          ///< a picture, whose departure is to be told by frameSent()
+        MemoryBudget::Share memory;  ///< that it holds, where that is counted
+    };
+    /// Takes a message for a client. Called on any thread, and while the service is locked: it must not call the
+    /// service.
+    using Send = std::function<void(ClientId, Outbound)>;
 
-    /// Errors: those of RenderService.
-    RenderBridge(const RenderConfig& config, Metrics& metrics, Send send);
+    /// `begun` is RenderService::Outlets::begun. Errors: those of RenderService.
+    RenderBridge(const RenderConfig& config, Instruments& instruments, Send send,
+                 std::function<void(std::exception_ptr)> begun);
     RenderBridge(const RenderBridge&) = delete;
     RenderBridge& operator=(const RenderBridge&) = delete;
     ~RenderBridge();
 
     RenderService& service() { return service_; }
+    /// Frees bytes elsewhere than on the calling thread: that takes milliseconds of a large picture.
+    void dispose(std::vector<std::byte> bytes, MemoryBudget::Share memory);
 
   private:
-    RenderService::Outlets outlets();
+    RenderService::Outlets outlets(std::function<void(std::exception_ptr)> begun);
     void encode(const FrameTask& task);
 
+    MemoryBudget& memory_;
+    ServerPaths paths_;
     Send send_;
     EncoderPool encoders_;
     RenderService service_;  // last: it hands pictures to the encoders

@@ -1,6 +1,9 @@
 #include "service/net/server.h"
 
+#include <algorithm>
 #include <csignal>
+#include <cstdlib>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -10,15 +13,22 @@
 #include "service/net/frame_server.h"
 #include "service/net/http_server.h"
 #include "service/net/hub.h"
-#include "service/telemetry/event_log.h"
+#include "service/net/supervisor.h"
+#include "service/telemetry/instruments.h"
 
 namespace lumulus::service {
 
 namespace {
 
 constexpr auto watchPeriod = std::chrono::milliseconds(250);
-/// For replies to leave after the work is done.
-constexpr auto farewell = std::chrono::seconds(2);
+/// Least time for replies to leave after the work is done.
+constexpr auto farewell = std::chrono::milliseconds(500);
+/// After which a process ends whose threads do not.
+constexpr auto lastPatience = std::chrono::seconds(3);
+
+Clock::duration inSeconds(double seconds) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
 
 /// Keeps SIGINT and SIGTERM with the handler of asio until the process is gone: without a set that wants them, asio
 /// gives them back to the system, and another one while the server ends would make a failure of it.
@@ -28,10 +38,40 @@ void holdSignals() {
     (void)held;
 }
 
+/// Ends a process whose threads do not end in time.
+class LastResort {
+  public:
+    explicit LastResort(EventLog& log) : log_(log) {}
+    LastResort(const LastResort&) = delete;
+    LastResort& operator=(const LastResort&) = delete;
+    ~LastResort() {
+        if (!thread_.joinable()) return;
+        ended_.set_value();
+        thread_.join();
+    }
+
+    void begin(Clock::time_point until) {
+        thread_ = std::thread([this, until, ended = ended_.get_future()] {
+            if (ended.wait_until(until) == std::future_status::ready) return;
+            log_.event("warning", "stopped_at_work", nullptr);
+            std::_Exit(EXIT_SUCCESS);  // what was promised is answered, and files are whole or not there
+        });
+    }
+
+  private:
+    EventLog& log_;
+    std::promise<void> ended_;
+    std::thread thread_;
+};
+
 class Server {
   public:
     explicit Server(const Config& config)
-        : hub_(config, [this](std::function<void()> call) { asio::post(io_, std::move(call)); }),
+        : config_(config),
+          instruments_(config.render.limits.memoryBytes),
+          hub_(
+              config, instruments_, [this](std::function<void()> call) { asio::post(io_, std::move(call)); },
+              [this](const std::exception_ptr& error) { begun(error); }),
           frames_(io_, hub_),
           pages_(io_, hub_),
           signals_(io_, SIGINT, SIGTERM),
@@ -40,7 +80,8 @@ class Server {
         if (!config.tcp.empty()) frames_.listenTcp(config.tcp);
         if (!config.unixSocket.empty()) frames_.listenUnix(config.unixSocket, config.unixMode);
         if (!config.http.empty()) pages_.listen(config.http);
-        logEvent("info", "listening", {{"frames", frames_.addresses()}, {"http", pages_.address()}});
+        instruments_.log.event("info", "listening", {{"frames", frames_.addresses()}, {"http", pages_.address()}});
+        supervisor_.ready("listening, and loading the default scene");
     }
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
@@ -50,12 +91,13 @@ class Server {
 
     void run() {
         asio::co_spawn(io_, watch(), asio::detached);
-        if (interrupted()) shutDown();  // while the default scene was loaded
+        if (interrupted()) shutDown();  // before there was a handler
         signals_.async_wait([this](const error_code& error, int) {
             if (!error && !finishing_.joinable()) shutDown();
         });
         io_.run();
-        logEvent("info", "stopped", nullptr);
+        instruments_.log.event("info", "stopped", nullptr);
+        if (failure_) std::rethrow_exception(failure_);
     }
 
   private:
@@ -65,14 +107,29 @@ class Server {
             watch_.expires_after(watchPeriod);
             co_await watch_.async_wait(intoError(error));
             hub_.watch(Clock::now());
+            if (hub_.service().alive()) supervisor_.alive(Clock::now());
         }
     }
 
+    /// The default scene is there, or cannot be.
+    void begun(const std::exception_ptr& error) {
+        if (finishing_.joinable()) return;
+        if (error) {
+            failure_ = error;
+            shutDown();
+            return;
+        }
+        instruments_.log.event("info", "ready", nullptr);
+        supervisor_.status("serving");
+    }
+
     void shutDown() {
-        logEvent("info", "shutting_down", nullptr);
-        hub_.refuseNew();
+        instruments_.log.event("info", "shutting_down", nullptr);
+        supervisor_.stopping();
+        latest_ = Clock::now() + inSeconds(config_.render.limits.shutdownSeconds);
         frames_.close();
         pages_.close();
+        resort_.begin(latest_ + lastPatience);
         finishing_ = std::thread([this] {
             hub_.finishWork();
             interrupt();  // what the threads of rendering are at still, nobody waits for
@@ -85,7 +142,7 @@ class Server {
     }
 
     asio::awaitable<void> leave() {
-        const auto latest = Clock::now() + farewell;
+        const auto latest = std::max(latest_, Clock::now() + farewell);
         asio::steady_timer timer(io_);
         error_code ignored;
         while (hub_.connections() > 0 && Clock::now() < latest) {
@@ -95,6 +152,10 @@ class Server {
         io_.stop();
     }
 
+    const Config& config_;
+    Instruments instruments_;
+    Supervisor supervisor_;
+    LastResort resort_{instruments_.log};  // ends after the threads of the hub
     asio::io_context io_{1};
     Hub hub_;
     FrameServer frames_;
@@ -102,17 +163,14 @@ class Server {
     asio::signal_set signals_;
     asio::steady_timer watch_;
     std::thread finishing_;
+    Clock::time_point latest_;  // for replies to leave
+    std::exception_ptr failure_;
 };
 
 }  // namespace
 
 void serve(const Config& config) {
-    try {
-        Server(config).run();
-    } catch (const Error&) {
-        if (!interrupted()) throw;
-        logEvent("info", "stopped", nullptr);  // before it listened
-    }
+    Server(config).run();
 }
 
 }  // namespace lumulus::service

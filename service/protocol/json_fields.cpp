@@ -1,8 +1,10 @@
 #include "service/protocol/json_fields.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/text.h"
 
@@ -14,12 +16,13 @@ namespace {
 
 constexpr int deepest = 16;
 
-/// Reads JSON without building it, as far as it nests no deeper than allowed. (A parse callback would do that while the
-/// values are built, but for each object that ends it looks through all of its parent's: 64 KiB of small objects in a
-/// list take over a second.)
-class DepthCheck : public nlohmann::json_sax<json> {
+/// Reads JSON without building it, as far as it nests no deeper than allowed and no object has a key twice. (A parse
+/// callback would do that while the values are built, but for each object that ends it looks through all of its
+/// parent's: 64 KiB of small objects in a list take over a second.)
+class ShapeCheck : public nlohmann::json_sax<json> {
   public:
     bool tooDeep() const { return depth_ > deepest; }
+    const std::optional<std::string>& keyTwice() const { return keyTwice_; }
 
     bool null() override { return true; }
     bool boolean(bool) override { return true; }
@@ -28,10 +31,20 @@ class DepthCheck : public nlohmann::json_sax<json> {
     bool number_float(number_float_t, const string_t&) override { return true; }
     bool string(string_t&) override { return true; }
     bool binary(binary_t&) override { return true; }
-    bool key(string_t&) override { return true; }
-    bool start_object(std::size_t) override { return ++depth_ <= deepest; }
+    bool key(string_t& name) override {
+        if (keys_.back().insert(name).second) return true;
+        keyTwice_ = name;
+        return false;
+    }
+    bool start_object(std::size_t) override {
+        keys_.emplace_back();
+        return ++depth_ <= deepest;
+    }
     bool start_array(std::size_t) override { return ++depth_ <= deepest; }
-    bool end_object() override { return leave(); }
+    bool end_object() override {
+        keys_.pop_back();
+        return leave();
+    }
     bool end_array() override { return leave(); }
     /// Syntax is judged by whoever builds the values.
     bool parse_error(std::size_t, const std::string&, const json::exception&) override { return false; }
@@ -43,12 +56,18 @@ class DepthCheck : public nlohmann::json_sax<json> {
     }
 
     int depth_ = 0;
+    std::vector<std::set<std::string>> keys_;  // of the objects that are open
+    std::optional<std::string> keyTwice_;
 };
 
-bool nestsTooDeep(std::string_view text) {
-    DepthCheck check;
+void checkShape(std::string_view text) {
+    ShapeCheck check;
     json::sax_parse(text, &check);
-    return check.tooDeep();
+    if (check.tooDeep()) throw RequestError("bad_request", "the JSON nests deeper than " + std::to_string(deepest));
+    if (check.keyTwice()) {
+        const std::string key = shortened(oneLine(*check.keyTwice()), 60);
+        throw RequestError("bad_request", "the JSON has the key " + key + " twice in one object", key);
+    }
 }
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
@@ -76,7 +95,7 @@ std::string shortText(const json& value, const std::string& where, std::size_t l
 
 json parseObject(std::string_view text) {
     if (text.empty()) return json::object();
-    if (nestsTooDeep(text)) throw RequestError("bad_request", "the JSON nests deeper than " + std::to_string(deepest));
+    checkShape(text);
     try {
         json value = json::parse(text);
         if (!value.is_object()) throw RequestError("bad_request", "the JSON header must be an object");
@@ -137,6 +156,20 @@ std::uint64_t JsonFields::requiredCount(const char* name, std::uint64_t most) {
     const auto given = integer(name, 0, static_cast<std::int64_t>(most));
     if (!given) refuse(place(name), "is missing");
     return static_cast<std::uint64_t>(*given);
+}
+
+std::uint64_t JsonFields::requiredId(const char* name) {
+    const json* value = find(name);
+    if (value == nullptr) refuse(place(name), "is missing");
+    if (value->is_number_unsigned()) return value->get<std::uint64_t>();
+    if (value->is_number()) return requiredCount(name, std::uint64_t{1} << 53U);  // 3.0
+    if (value->is_string()) {
+        const auto& text = value->get_ref<const std::string&>();
+        std::uint64_t id = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id);
+        if (error == std::errc() && end == text.data() + text.size() && !text.empty()) return id;
+    }
+    refuse(place(name), "must be a whole number of 64 bits, or its digits as a string");
 }
 
 std::optional<std::variant<std::uint32_t, std::string>> JsonFields::indexOrName(const char* name, std::uint32_t most,

@@ -14,7 +14,7 @@
 namespace lumulus::service {
 
 /// Parses JSON text that holds an object; empty text is an empty object. Errors: RequestError `bad_request` for text
-/// that is no JSON object, or that nests deeper than 16.
+/// that is no JSON object, that nests deeper than 16, or that has a key twice in one object.
 nlohmann::json parseObject(std::string_view text);
 
 /// Reads the fields of one JSON object. Every getter names the field in its error (RequestError `bad_request`) where it
@@ -31,6 +31,9 @@ class JsonFields {
     /// Errors, besides the others': the field is missing.
     std::string requiredText(const char* name, std::size_t longest);
     std::uint64_t requiredCount(const char* name, std::uint64_t most);
+    /// The id of a message: a whole number of 64 bits, or its decimal digits as text, for languages whose numbers are
+    /// doubles.
+    std::uint64_t requiredId(const char* name);
     /// A whole number up to `most`, or a name.
     std::optional<std::variant<std::uint32_t, std::string>> indexOrName(const char* name, std::uint32_t most,
                                                                         std::size_t longest);

@@ -23,6 +23,9 @@ Number get(std::span<const std::byte> bytes, std::size_t at) {
     return value;
 }
 
+/// From this size on a payload gets the room that its header claims, so that it is not copied again and again.
+constexpr std::size_t sizeableBytes = std::size_t{1} << 20U;
+
 /// Appends to `to` until it has `wanted` elements or nothing is left.
 template <class Container>
 void take(Container& to, std::size_t wanted, std::span<const std::byte>& from) {
@@ -58,6 +61,10 @@ const char* messageName(MessageType type) {
             return "ping";
         case MessageType::change:
             return "change";
+        case MessageType::listUploads:
+            return "list_uploads";
+        case MessageType::deleteUpload:
+            return "delete_upload";
         case MessageType::listScenes:
             return "list_scenes";
         case MessageType::error:
@@ -119,6 +126,7 @@ std::optional<Message> MessageReader::read(std::span<const std::byte>& bytes) {
         message_ = Message{header.type, header.id, {}, {}};
     }
     take(message_.json, header_->jsonBytes, bytes);
+    if (message_.payload.size() >= sizeableBytes) message_.payload.reserve(header_->payloadBytes);
     take(message_.payload, header_->payloadBytes, bytes);
     if (message_.json.size() < header_->jsonBytes || message_.payload.size() < header_->payloadBytes)
         return std::nullopt;

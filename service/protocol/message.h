@@ -29,6 +29,8 @@ enum class MessageType : std::uint16_t {
     statistics = 9,
     ping = 10,
     change = 11,
+    listUploads = 12,
+    deleteUpload = 13,
     listScenes = 14,
     error = 0x8000,
 };
@@ -84,7 +86,7 @@ struct MessageLimits {
 };
 
 /// Takes bytes in pieces of any size and gives messages back. Holds one message at most, as far as it has arrived;
-/// memory for the lengths that a header claims is never reserved before the bytes come.
+/// room for the length that a header claims is reserved when the first MiB has come, and filled by the bytes alone.
 class MessageReader {
   public:
     explicit MessageReader(MessageLimits limits) : limits_(limits) {}
@@ -96,6 +98,10 @@ class MessageReader {
 
     /// Whether a message has begun and is not complete.
     bool midMessage() const { return !head_.empty() || header_.has_value(); }
+    /// Bytes of JSON and payload that have arrived of a message that is not complete.
+    std::uint64_t held() const { return header_ ? message_.json.size() + message_.payload.size() : 0; }
+    /// Id of that message; 0 where none has begun.
+    std::uint64_t id() const { return header_ ? header_->id : 0; }
 
   private:
     MessageLimits limits_;

@@ -1,5 +1,7 @@
 #include "service/protocol/replies.h"
 
+#include <cmath>
+
 #include "base/version.h"
 #include "service/protocol/error_reply.h"
 
@@ -34,7 +36,7 @@ json bodyOf(const SceneDescription& scene) {
               {"width", scene.image.width},
               {"height", scene.image.height},
               {"exposure", scene.image.exposure},
-              {"sun", sunOf(scene.sunDirection, scene.sunIrradiance)},
+              {"sun", sunOf(scene.light.sunDirection, scene.light.sunIrradiance)},
               {"seed", scene.seed},
               {"generations", scene.generations},
               {"collectors", scene.collectors},
@@ -42,7 +44,7 @@ json bodyOf(const SceneDescription& scene) {
               {"warnings", scene.warnings},
               {"center", listOf(scene.centre)},
               {"radius", scene.radius}};
-    if (scene.extinction) body["extinction"] = *scene.extinction;
+    if (scene.light.extinction) body["extinction"] = *scene.light.extinction;
     if (scene.asymmetry) body["g"] = *scene.asymmetry;
     body["original"] = originalOf(scene);
     return body;
@@ -55,6 +57,8 @@ json bodyOf(const SceneState& scene) {
             {"generations_wanted", scene.generationsWanted},
             {"photons", scene.photons.photons()},
             {"trace_milliseconds", scene.traceMilliseconds},
+            {"sun", sunOf(scene.light.sunDirection, scene.light.sunIrradiance)},
+            {"extinction", scene.light.extinction ? json(*scene.light.extinction) : json()},
             {"clients", scene.clients}};
 }
 
@@ -142,6 +146,23 @@ Message scenesReply(std::uint64_t id, const std::vector<std::string>& names) {
 
 Message uploadReply(std::uint64_t id, std::uint64_t received, bool complete) {
     return {replyTo(MessageType::upload), id, json{{"received", received}, {"complete", complete}}.dump(), {}};
+}
+
+Message uploadsReply(std::uint64_t id, const std::vector<StoredUpload>& uploads, std::uint64_t mostBytes) {
+    json list = json::array();
+    std::uint64_t bytes = 0;
+    for (const StoredUpload& upload : uploads) {
+        list.push_back({{"hash", "sha256:" + upload.hash},
+                        {"bytes", upload.bytes},
+                        {"seconds_left", std::floor(upload.secondsLeft)}});
+        bytes += upload.bytes;
+    }
+    const json body{{"uploads", std::move(list)}, {"bytes", bytes}, {"most_bytes", mostBytes}};
+    return {replyTo(MessageType::listUploads), id, body.dump(), {}};
+}
+
+Message uploadDeletedReply(std::uint64_t id, bool found) {
+    return {replyTo(MessageType::deleteUpload), id, json{{"found", found}}.dump(), {}};
 }
 
 bool budgetMet(const Budget& budget, const FrameResult& result, double totalMilliseconds) {

@@ -39,6 +39,12 @@ Message scenesReply(std::uint64_t id, const std::vector<std::string>& names);
 /// The reply to a chunk of an upload.
 Message uploadReply(std::uint64_t id, std::uint64_t received, bool complete);
 
+/// The reply to `list_uploads`; `mostBytes` that they may hold.
+Message uploadsReply(std::uint64_t id, const std::vector<StoredUpload>& uploads, std::uint64_t mostBytes);
+
+/// The reply to `delete_upload`.
+Message uploadDeletedReply(std::uint64_t id, bool found);
+
 /// Which frame a reply is.
 struct FrameMark {
     std::uint64_t id = 0;  ///< of the request

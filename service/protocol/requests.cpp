@@ -1,9 +1,6 @@
 #include "service/protocol/requests.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "service/protocol/frame_fields.h"
@@ -15,6 +12,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t longestName = 200, longestOverride = 1000, mostOverrides = 64;
+constexpr std::size_t largestScene = std::size_t{1} << 20U;  // bytes of TOML, as in scene files
 
 Hello readHello(JsonFields& fields) {
     const auto version = fields.integer("version", 0, 65535);
@@ -23,17 +21,24 @@ Hello readHello(JsonFields& fields) {
     return {fields.text("token", longestName).value_or(""), fields.text("client", longestName).value_or("")};
 }
 
+std::string requireHash(const std::string& text, const char* where) {
+    auto digits = digitsOfHash(text);
+    if (!digits)
+        throw RequestError("bad_request",
+                           std::string(where) + " must be sha256: and 64 hexadecimal digits in lower case", where);
+    return *digits;
+}
+
 LoadScene readLoadScene(JsonFields& fields, const std::vector<std::byte>& payload) {
     LoadScene load;
     load.name = fields.text("name", longestName).value_or("");
+    if (payload.size() > largestScene) throw RequestError("too_large", "a scene may hold 1 MiB of TOML");
     load.toml.assign(reinterpret_cast<const char*>(payload.data()), payload.size());
     if (load.name.empty() && load.toml.empty())
         throw RequestError("bad_request", "give the name of a scene, or its TOML as payload", "name");
     if (!load.name.empty() && !load.toml.empty())
         throw RequestError("bad_request", "give the name of a scene or its TOML, not both", "name");
-    load.vdb = fields.text("vdb", longestName).value_or("");
-    if (!load.vdb.empty() && !isHash(load.vdb))
-        throw RequestError("bad_request", "vdb must be the SHA-256 of an upload", "vdb");
+    if (const auto vdb = fields.text("vdb", longestName); vdb && !vdb->empty()) load.vdb = requireHash(*vdb, "vdb");
     load.overrides = fields.texts("set", mostOverrides, longestOverride).value_or(std::vector<std::string>{});
     if (const auto quality = fields.choice("quality", {"draft", "interactive", "final"}))
         load.quality = static_cast<scene::Quality>(*quality);
@@ -43,9 +48,7 @@ LoadScene readLoadScene(JsonFields& fields, const std::vector<std::byte>& payloa
 
 Upload readUpload(JsonFields& fields, std::vector<std::byte> payload, const RequestLimits& limits) {
     Upload upload;
-    upload.hash = fields.requiredText("hash", longestName);
-    if (!isHash(upload.hash))
-        throw RequestError("bad_request", "hash must be 64 hexadecimal digits in lower case", "hash");
+    upload.hash = requireHash(fields.requiredText("hash", longestName), "hash");
     upload.size = fields.requiredCount("size", std::uint64_t{1} << 53U);
     if (upload.size > limits.uploadBytes)
         throw RequestError("too_large", "an upload may hold " + std::to_string(limits.uploadBytes) + " bytes here",
@@ -65,7 +68,7 @@ StartStream readStartStream(JsonFields& fields, const RequestLimits& limits) {
     return start;
 }
 
-Composite readComposite(JsonFields& fields, const std::vector<std::byte>& payload, const RequestLimits& limits) {
+Composite readComposite(JsonFields& fields, std::vector<std::byte> payload, const RequestLimits& limits) {
     Composite composite;
     composite.width = static_cast<int>(fields.requiredCount("width", 16384));
     composite.height = static_cast<int>(fields.requiredCount("height", 16384));
@@ -83,14 +86,7 @@ Composite readComposite(JsonFields& fields, const std::vector<std::byte>& payloa
     composite.format = readFormat(fields);
     if (payload.size() != pixels * 4 * sizeof(float))
         throw RequestError("bad_request", "the payload must be 3 floats of colour a pixel, then 1 of depth a pixel");
-    static_assert(std::endian::native == std::endian::little);
-    composite.color.resize(pixels * 3);
-    composite.depth.resize(pixels);
-    std::memcpy(composite.color.data(), payload.data(), pixels * 3 * sizeof(float));
-    std::memcpy(composite.depth.data(), payload.data() + pixels * 3 * sizeof(float), pixels * sizeof(float));
-    const auto isFinite = [](float x) { return std::isfinite(x); };
-    if (!std::ranges::all_of(composite.color, isFinite) || !std::ranges::all_of(composite.depth, isFinite))
-        throw RequestError("bad_request", "colour and depth must be finite numbers");
+    composite.pixels = std::move(payload);
     return composite;
 }
 
@@ -117,17 +113,21 @@ Request readRequest(Message& message, JsonFields& fields, const RequestLimits& l
         case MessageType::startStream:
             return readStartStream(fields, limits);
         case MessageType::stopStream:
-            return StopStream{fields.requiredCount("stream", std::uint64_t{1} << 53U)};
+            return StopStream{fields.requiredId("stream")};
         case MessageType::composite:
-            return readComposite(fields, message.payload, limits);
+            return readComposite(fields, std::move(message.payload), limits);
         case MessageType::cancel:
-            return Cancel{fields.requiredCount("request", std::uint64_t{1} << 53U)};
+            return Cancel{fields.requiredId("request")};
         case MessageType::statistics:
             return StatisticsRequest{};
         case MessageType::ping:
             return Ping{};
         case MessageType::change:
             return readChange(fields);
+        case MessageType::listUploads:
+            return ListUploads{};
+        case MessageType::deleteUpload:
+            return DeleteUpload{requireHash(fields.requiredText("hash", longestName), "hash")};
         case MessageType::listScenes:
             return ListScenes{};
         case MessageType::error:
@@ -143,9 +143,12 @@ bool takesPayload(MessageType type) {
 
 }  // namespace
 
-bool isHash(const std::string& text) {
-    return text.size() == 64 &&
-           std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+std::optional<std::string> digitsOfHash(std::string_view text) {
+    constexpr std::string_view prefix = "sha256:";
+    if (text.starts_with(prefix)) text.remove_prefix(prefix.size());
+    const auto isDigit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+    if (text.size() != 64 || !std::ranges::all_of(text, isDigit)) return std::nullopt;
+    return std::string(text);
 }
 
 Request parseRequest(Message message, const RequestLimits& limits) {

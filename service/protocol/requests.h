@@ -16,17 +16,22 @@ struct Hello {
 };
 
 struct StatisticsRequest {};
+struct ListUploads {};
+struct DeleteUpload {
+    std::string hash;  ///< 64 hexadecimal digits
+};
 struct Ping {};
 struct ListScenes {};
 
 using Request = std::variant<Hello, LoadScene, Upload, FrameRequest, StartStream, StopStream, Composite, Cancel,
-                             StatisticsRequest, Ping, Change, ListScenes>;
+                             StatisticsRequest, Ping, Change, ListUploads, DeleteUpload, ListScenes>;
 
 /// Reads a request from a message. Errors: RequestError `bad_request` (the field is named), `too_large`,
 /// `unknown_type`.
 Request parseRequest(Message message, const RequestLimits& limits);
 
-/// Whether a text is a SHA-256: 64 digits 0-9 a-f.
-bool isHash(const std::string& text);
+/// The 64 digits 0-9 a-f of a SHA-256 that is spelled "sha256:…", or without what stands before them; none for another
+/// text.
+std::optional<std::string> digitsOfHash(std::string_view text);
 
 }  // namespace lumulus::service

@@ -16,10 +16,10 @@ constexpr MessageLimits strangerLimits{4096, 0};
 
 Session::Session(const SessionPolicy& policy) : policy_(policy), reader_(strangerLimits) {}
 
-Session::Result Session::receive(std::span<const std::byte> bytes) {
+Session::Result Session::receive(std::span<const std::byte>& bytes, std::size_t most) {
     Result result;
     try {
-        while (!closed_) {
+        for (std::size_t count = 0; count < most && !closed_; ++count) {
             auto message = reader_.read(bytes);
             if (!message) break;
             handle(std::move(*message), result);
@@ -29,12 +29,21 @@ Session::Result Session::receive(std::span<const std::byte> bytes) {
         ++result.refusals;
         closed_ = true;
     }
+    if (closed_) bytes = {};
     result.close = closed_;
     return result;
 }
 
+Session::Result Session::refuse(const RequestError& error) {
+    Result result;
+    result.replies.push_back(errorReply(reader_.id(), error.code, error.what(), error.where));
+    result.refusals = 1;
+    result.close = closed_ = true;
+    return result;
+}
+
 void Session::handle(Message message, Result& result) {
-    const std::uint64_t id = message.id;
+    const std::uint64_t id = message.id, payloadBytes = message.payload.size();
     try {
         if (id == 0) throw RequestError("bad_request", "an id must not be 0");
         Request request = parseRequest(std::move(message), policy_.requests);
@@ -45,7 +54,7 @@ void Session::handle(Message message, Result& result) {
         } else if (std::holds_alternative<Ping>(request)) {
             result.replies.push_back({replyTo(MessageType::ping), id, "{}", {}});
         } else {
-            result.requests.push_back({id, std::move(request)});
+            result.requests.push_back({id, payloadBytes, std::move(request)});
         }
     } catch (const RequestError& e) {
         result.replies.push_back(errorReply(id, e.code, e.what(), e.where));
@@ -56,8 +65,8 @@ void Session::handle(Message message, Result& result) {
 
 void Session::greet(std::uint64_t id, const Hello& hello, Result& result) {
     if (greeted_) throw RequestError("bad_request", "hello was said before");
-    if (!policy_.token.empty() && !equalSecrets(hello.token, policy_.token))
-        throw RequestError("unauthorized", "the token is not the server's", "token");
+    wrongToken_ = !policy_.token.empty() && !equalSecrets(hello.token, policy_.token);
+    if (wrongToken_) throw RequestError("unauthorized", "the token is not the server's", "token");
     greeted_ = true;
     client_ = shortened(oneLine(hello.client), 100);
     reader_.setLimits(policy_.messages);

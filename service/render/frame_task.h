@@ -15,6 +15,7 @@ struct FrameTask {
     Job job;
     std::variant<FrameResult, CompositeResult> result;
     std::weak_ptr<SceneSlot> slot;  ///< that drew it, and learns what encoding costs
+    MemoryBudget::Share memory;     ///< that the pictures hold
 };
 
 /// What encoding a frame took.

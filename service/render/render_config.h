@@ -18,7 +18,11 @@ struct RenderLimits {
     double generationSeconds = 30.0;  ///< for one generation or one picture; a scene that takes longer is dropped
     double loadSeconds = 120.0;       ///< for loading a scene
     double shutdownSeconds = 5.0;     ///< for frames that wait when the service ends
+    double heartbeatSeconds = 10.0;   ///< for a step of the render thread, before the service counts as stuck
+    double uploadHours = 168.0;       ///< for which an upload is kept that nobody uses
     std::uint64_t uploadFolderBytes = std::uint64_t{8} << 30U;
+    std::uint64_t uploadClientBytes = std::uint64_t{2} << 30U;  ///< of one client's uploads
+    std::uint64_t memoryBytes = std::uint64_t{4} << 30U;        ///< that clients may make the process hold
     RequestLimits requests;
 };
 

@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
-#include "service/telemetry/event_log.h"
 #include "service/values/request_error.h"
 
 namespace lumulus::service {
@@ -15,22 +14,37 @@ namespace lumulus::service {
 namespace {
 
 const Failure shuttingDown{"shutting_down", "the service is shutting down", {}};
+constexpr const char* noMemory = "there is no memory for so many pixels now: ask for fewer, or later";
 
 }  // namespace
 
-RenderService::RenderService(const RenderConfig& config, Metrics& metrics, Outlets outlets)
+RenderService::RenderService(const RenderConfig& config, Instruments& instruments, Outlets outlets)
     : config_(config),
-      metrics_(metrics),
+      metrics_(instruments.metrics),
+      log_(instruments.log),
+      memory_(instruments.memory),
       outlets_(std::move(outlets)),
       scheduler_({config.limits.queuedFrames, config.limits.streams, config.limits.unsentFrames}),
       scenes_(config.limits.scenes),
-      loader_(config, metrics, loaderHost()) {
-    if (!config.defaultScene.empty()) {
-        const SlotPointer slot = loadDefaultScene(config);
-        keepSlot(slot);
-        scenes_.setDefault(slot);
-    }
+      encoding_(outlets_.mostEncoding),
+      desk_(config, instruments, deskHost()) {
     renderThread_ = std::thread([this] { renderLoop(); });
+}
+
+SceneDesk::Host RenderService::deskHost() {
+    return {mutex_,
+            scheduler_,
+            scenes_,
+            changes_,
+            outlets_.reply,
+            [this] {
+                // with the lock, or the one who looks for work or idleness could miss it
+                const std::lock_guard lock(mutex_);
+                idle_.notify_all();
+                wake_.notify_one();
+            },
+            outlets_.begun,
+            [this] { heartbeat_.step(); }};
 }
 
 RenderService::~RenderService() {
@@ -39,7 +53,7 @@ RenderService::~RenderService() {
         stopping_ = closing_ = true;
     }
     wake_.notify_all();
-    loader_.stop();
+    desk_.stop();
     renderThread_.join();
 }
 
@@ -47,6 +61,7 @@ void RenderService::addClient(ClientId client) {
     const std::lock_guard lock(mutex_);
     scheduler_.addClient(client);
     scenes_.addClient(client);
+    desk_.addClient(client);
 }
 
 void RenderService::removeClient(ClientId client) {
@@ -54,7 +69,7 @@ void RenderService::removeClient(ClientId client) {
         const std::lock_guard lock(mutex_);
         scheduler_.removeClient(client);
         scenes_.removeClient(client);
-        loader_.removeClient(client);
+        desk_.removeClient(client);
         metrics_.set(Metrics::streamsRunning, static_cast<std::int64_t>(scheduler_.streams()));
     }
     wake_.notify_one();
@@ -80,25 +95,27 @@ void RenderService::answer(ClientId client, std::uint64_t id, const Cancel& canc
 
 void RenderService::answer(ClientId client, std::uint64_t id, Change change) {
     const SlotPointer slot = scenes_.shownTo(client);
+    if (!slot && desk_.defaultPending())
+        throw RequestError("busy", "the default scene is being loaded: try again later");
     if (!slot) throw RequestError("no_scene", "load a scene first");
     std::optional<std::size_t> cloud;
     if (change.cloud) cloud = slot->findCloud(*change.cloud);
-    changes_.push_back({slot, std::move(change.light), cloud});
+    changes_.add({slot, std::move(change.light), cloud});
     outlets_.reply(client, id, LightChanged{});
 }
 
-void RenderService::submit(ClientId client, std::uint64_t id, RenderRequest request) {
+void RenderService::submit(ClientId client, std::uint64_t id, RenderRequest request, MemoryBudget::Share memory) {
+    const auto held = std::make_shared<MemoryBudget::Share>(std::move(memory));
     {
         const std::lock_guard lock(mutex_);
         if (closing_) throw RequestError(shuttingDown.code, shuttingDown.text);
         const auto now = Clock::now();
         if (auto* load = std::get_if<LoadScene>(&request)) {
-            loader_.submit({client, id, std::move(*load)});
-            scheduler_.setWaiting(client, true);
+            desk_.submit({client, id, std::move(*load), held});
         } else if (auto* frame = std::get_if<FrameRequest>(&request)) {
-            submitFrame({client, id, workOf(std::move(*frame)), now});
+            submitFrame({client, id, workOf(std::move(*frame)), held, now});
         } else if (auto* composite = std::get_if<Composite>(&request)) {
-            submitFrame({client, id, workOf(std::move(*composite)), now});
+            submitFrame({client, id, workOf(std::move(*composite)), held, now});
         } else if (auto* start = std::get_if<StartStream>(&request)) {
             scheduler_.startStream(client, id, std::move(*start), now);
         } else if (const auto* stop = std::get_if<StopStream>(&request)) {
@@ -126,17 +143,30 @@ std::optional<SceneState> RenderService::sceneState(ClientId client) {
     return scenes_.state(client);
 }
 
+std::optional<std::string> RenderService::notReady() {
+    if (!alive()) return "the render thread does not move";
+    const std::lock_guard lock(mutex_);
+    if (closing_) return "the service is shutting down";
+    if (desk_.defaultPending()) return "the default scene is being loaded";
+    if (!config_.defaultScene.empty() && !scenes_.hasDefault()) return "the default scene is gone";
+    return std::nullopt;
+}
+
+bool RenderService::alive() const {
+    return heartbeat_.silentSeconds(Clock::now()) <= config_.limits.heartbeatSeconds;
+}
+
 void RenderService::shutDown() {
+    constexpr double shareOfWork = 0.8;  // of the time; the rest is for replies to leave
     std::unique_lock lock(mutex_);
     closing_ = true;
-    std::vector<SceneLoader::LoadJob> loads = loader_.close();
+    std::vector<SceneLoader::LoadJob> loads = desk_.close();
     std::vector<Job> failed = scheduler_.endStreams();
-    for (const auto& job : loads) scheduler_.setWaiting(job.client, false);
     wake_.notify_all();
-    const auto limit = std::chrono::duration<double>(config_.limits.shutdownSeconds);
+    const auto limit = std::chrono::duration<double>(shareOfWork * config_.limits.shutdownSeconds);
     idle_.wait_for(lock, limit,
-                   [this] { return !scheduler_.hasQueued() && !rendering_ && encoding_ == 0 && !loader_.busy(); });
-    if (auto current = loader_.takeCurrent()) loads.push_back(std::move(*current));
+                   [this] { return !scheduler_.hasQueued() && !rendering_ && encoding_.empty() && !desk_.busy(); });
+    if (auto current = desk_.takeCurrent()) loads.push_back(std::move(*current));
     for (const std::vector<Job>& left : {scheduler_.takeQueued(), scheduler_.takeCurrent()})
         std::ranges::copy_if(left, std::back_inserter(failed), [](const Job& job) { return !job.stream; });
     const auto fails = [this](ClientId client, std::uint64_t id) {
@@ -152,20 +182,25 @@ void RenderService::renderLoop() {
         std::optional<Job> job;
         SlotPointer toRefine;
         bool starving = false;
+        heartbeat_.step();
+        applyChanges();
         {
             std::unique_lock lock(mutex_);
             rendering_ = false;
             idle_.notify_all();
             if (stopping_) return;
-            applyChanges();
+            if (changes_.any()) continue;  // a picture that was asked for after a change shows it
             const auto now = Clock::now();
             const auto revision = [this](ClientId client) { return scenes_.revision(client); };
             const auto due = scheduler_.nextDue(revision);
             if (!closing_) toRefine = scenes_.toRefine(now, due);
             starving = toRefine && SceneStore::starves(*toRefine, now);
-            const bool full = encodersFull(due, now);
+            const bool full = encoding_.full();
+            if (encoding_.beginsToWait(scheduler_.hasQueued() || (due && *due <= now)))
+                metrics_.add(Metrics::encoderWaits);
             if (!starving && !full) job = scheduler_.take(now, revision);
             if (!job && !toRefine) {
+                heartbeat_.rest();
                 if (due && !full)
                     wake_.wait_until(lock, *due);
                 else
@@ -179,16 +214,6 @@ void RenderService::renderLoop() {
         else
             refine(toRefine, starving || !toRefine->wantsSun());
     }
-}
-
-/// With the lock held: whether nothing may be drawn until a picture is encoded. Counts each time that drawing has to
-/// wait.
-bool RenderService::encodersFull(std::optional<Clock::time_point> due, Clock::time_point now) {
-    const bool full = encoding_ >= outlets_.mostEncoding;
-    const bool waits = full && (scheduler_.hasQueued() || (due && *due <= now));
-    if (waits && !waitsForEncoders_) metrics_.add(Metrics::encoderWaits);
-    waitsForEncoders_ = waits;
-    return full;
 }
 
 void RenderService::refine(const SlotPointer& slot, bool generation) {
@@ -206,35 +231,52 @@ void RenderService::refine(const SlotPointer& slot, bool generation) {
     }
 }
 
-/// With the lock held, on the render thread: what other threads have left for the scenes.
+/// On the render thread, without the lock: changes take their time.
 void RenderService::applyChanges() {
-    for (const auto& [slot, light, cloud] : changes_) {
+    std::vector<PendingChanges::Change> changes;
+    std::vector<EncodingDesk::Cost> costs;
+    {
+        const std::lock_guard lock(mutex_);
+        changes = changes_.takeAll();
+        costs = encoding_.takeCosts();
+    }
+    for (const auto& [slot, light, cloud] : changes) {
         try {
             slot->apply(light, cloud);
+            const std::lock_guard lock(mutex_);
             scenes_.publish(*slot);
         } catch (const RequestError& e) {
-            logEvent("warning", "change_refused", {{"scene", slot->scene().source}, {"message", e.what()}});
+            log_.event("warning", "change_refused", {{"scene", slot->scene().source}, {"message", e.what()}});
         }
     }
-    changes_.clear();
-    for (const EncodingCost& cost : encodingCosts_)
+    for (const EncodingDesk::Cost& cost : costs)
         if (const SlotPointer slot = cost.slot.lock())
             slot->noteEncoded(cost.encoding, cost.report.milliseconds, cost.report.pixels);
-    encodingCosts_.clear();
+}
+
+/// Errors: RequestError where the budget does not have it.
+MemoryBudget::Share RenderService::roomFor(std::uint64_t bytes) {
+    auto share = memory_.take(MemoryBudget::frames, bytes);
+    if (!share) throw RequestError("busy", noMemory);
+    return std::move(*share);
 }
 
 void RenderService::make(Job job) {
     SlotPointer slot;
+    bool closing = false;
     {
         const std::lock_guard lock(mutex_);
         slot = scenes_.shownTo(job.client);
+        closing = closing_;
     }
     try {
         if (job.cancelled->load()) throw Cancelled{};
+        if (!slot && closing) throw RequestError(shuttingDown.code, shuttingDown.text);
         if (!slot) throw RequestError("no_scene", "load a scene first");
-        if (const auto* composite = std::get_if<Composite>(job.work.get()))
-            handOver(job, slot->composite(job, *composite), slot);
-        else
+        if (const auto* composite = std::get_if<Composite>(job.work.get())) {
+            MemoryBudget::Share memory = roomFor(SceneSlot::pictureBytes(composite->pixels.size() / 16));
+            handOver(job, slot->composite(job, *composite), slot, std::move(memory));
+        } else
             makeFrame(job, std::get<FrameRequest>(*job.work), slot);
     } catch (const RequestError& e) {
         fail(job, {e.code, e.what(), e.where});
@@ -268,12 +310,15 @@ void RenderService::makeFrame(Job job, const FrameRequest& frame, const SlotPoin
     // a stream without a budget refines as it goes
     const bool refines = job.stream && !frame.budget.milliseconds && !frame.budget.photons && slot->wantsGeneration();
     if (refines && !hurry) refine(slot, true);
+    auto memory = memory_.take(MemoryBudget::frames, slot->frameBytes(frame));
+    if (!memory && job.stream) return leaveOut(job);
+    if (!memory) throw RequestError("busy", noMemory);
     FrameResult drawn = slot->draw(job, frame);
     {
         const std::lock_guard lock(mutex_);
         scenes_.publish(*slot);
     }
-    handOver(job, std::move(drawn), slot);
+    handOver(job, std::move(drawn), slot, std::move(*memory));
 }
 
 void RenderService::leaveOut(const Job& job) {
@@ -285,22 +330,22 @@ void RenderService::leaveOut(const Job& job) {
     scheduler_.leaveOut(job);
 }
 
-void RenderService::handOver(const Job& job, std::variant<FrameResult, CompositeResult> result,
-                             const SlotPointer& slot) {
+void RenderService::handOver(const Job& job, std::variant<FrameResult, CompositeResult> result, const SlotPointer& slot,
+                             MemoryBudget::Share memory) {
     {
         const std::lock_guard lock(mutex_);
         if (!scheduler_.drawn(job)) return;
-        ++encoding_;
+        encoding_.begin();
     }
-    outlets_.encode({job, std::move(result), slot});
+    outlets_.encode({job, std::move(result), slot, std::move(memory)});
 }
 
 void RenderService::finish(const FrameTask& task, const EncodingReport& report, const std::function<void()>& send) {
     const auto* frame = std::get_if<FrameRequest>(task.job.work.get());
     {
         const std::lock_guard lock(mutex_);
-        --encoding_;
-        if (frame != nullptr) encodingCosts_.push_back({task.slot, frame->format.encoding, report});
+        encoding_.end();
+        if (frame != nullptr) encoding_.note({task.slot, frame->format.encoding, report});
         idle_.notify_all();
         wake_.notify_one();
         if (!scheduler_.encoded(task.job)) return;
@@ -318,7 +363,7 @@ void RenderService::failEncoding(const FrameTask& task, const Failure& failure) 
     const Job& job = task.job;
     {
         const std::lock_guard lock(mutex_);
-        --encoding_;
+        encoding_.end();
         idle_.notify_all();
         wake_.notify_one();
         if (!scheduler_.encoded(job)) return;
@@ -342,57 +387,10 @@ void RenderService::fail(const Job& job, const Failure& failure) {
 /// A renderer in which something failed is of no more use; its clients have to load again.
 void RenderService::dropSlot(const SlotPointer& slot, const char* event, const std::string& why) {
     if (!slot || interrupted()) return;  // the service ends
-    logEvent("error", event, {{"scene", slot->scene().source}, {"message", why}});
+    log_.event("error", event, {{"scene", slot->scene().source}, {"message", why}});
     const std::lock_guard lock(mutex_);
     scenes_.drop(slot);
     metrics_.set(Metrics::scenesHeld, static_cast<std::int64_t>(scenes_.size()));
-}
-
-SceneLoader::Host RenderService::loaderHost() {
-    SceneLoader::Host host;
-    host.find = [this](const std::string& key) {
-        const std::lock_guard lock(mutex_);
-        return scenes_.find(key);
-    };
-    host.keep = [this](const SlotPointer& slot) { keepSlot(slot); };
-    host.loaded = [this](const SceneLoader::LoadJob& job, const SlotPointer& slot) { loaded(job, slot); };
-    host.failed = [this](const SceneLoader::LoadJob& job, const Failure& failure) { loadFailed(job, failure); };
-    return host;
-}
-
-void RenderService::keepSlot(const SlotPointer& slot) {
-    SlotPointer dropped;  // ends after the lock
-    const std::lock_guard lock(mutex_);
-    dropped = scenes_.keep(slot);
-    metrics_.set(Metrics::scenesHeld, static_cast<std::int64_t>(scenes_.size()));
-}
-
-void RenderService::loaded(const SceneLoader::LoadJob& job, const SlotPointer& slot) {
-    {
-        const std::lock_guard lock(mutex_);
-        const bool known = scenes_.knows(job.client);
-        if (known && !scenes_.holds(slot)) throw RequestError("busy", "the scene has gone: load it again");
-        const std::optional<bool> waits = loader_.end(job);
-        idle_.notify_all();
-        if (!known || !waits) return;
-        scheduler_.setWaiting(job.client, *waits);
-        scenes_.show(job.client, slot);
-        outlets_.reply(job.client, job.id, slot->description());
-    }
-    wake_.notify_one();
-}
-
-void RenderService::loadFailed(const SceneLoader::LoadJob& job, const Failure& failure) {
-    {
-        const std::lock_guard lock(mutex_);
-        const std::optional<bool> waits = loader_.end(job);
-        idle_.notify_all();
-        if (!waits) return;
-        scheduler_.setWaiting(job.client, *waits);
-        outlets_.reply(job.client, job.id, failure);
-    }
-    logEvent("warning", "scene_refused", {{"client", job.client}, {"code", failure.code}, {"message", failure.text}});
-    wake_.notify_one();
 }
 
 }  // namespace lumulus::service

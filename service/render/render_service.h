@@ -8,12 +8,15 @@
 #include <thread>
 #include <vector>
 
+#include "service/render/encoding_desk.h"
 #include "service/render/frame_task.h"
+#include "service/render/heartbeat.h"
+#include "service/render/pending_changes.h"
 #include "service/render/render_config.h"
-#include "service/render/scene_loader.h"
+#include "service/render/scene_desk.h"
 #include "service/render/scene_store.h"
 #include "service/render/scheduler.h"
-#include "service/telemetry/metrics.h"
+#include "service/telemetry/instruments.h"
 #include "service/values/results.h"
 
 namespace lumulus::service {
@@ -29,13 +32,15 @@ class RenderService {
         std::function<void(ClientId, std::uint64_t id, Reply)> reply;
         /// Takes a drawn picture, which is to be given back by finish() or failEncoding(). Called on the render thread.
         std::function<void(FrameTask)> encode;
+        /// Told once that the default scene is there, or what is wrong with it. Called on a thread of its own.
+        std::function<void(std::exception_ptr)> begun;
         /// Pictures that may be with `encode` at once; nothing more is drawn until one comes back.
         std::size_t mostEncoding = 1;
     };
 
-    /// Loads the default scene. `config` and `metrics` must outlive the service.
-    /// Errors: those of the scene, as InputError or Error.
-    RenderService(const RenderConfig& config, Metrics& metrics, Outlets outlets);
+    /// Reads the default scene, and begins to load it: clients that come before it is there wait for it. `config` and
+    /// `instruments` must outlive the service. Errors: InputError for a scene file that is not there or is wrong.
+    RenderService(const RenderConfig& config, Instruments& instruments, Outlets outlets);
     RenderService(const RenderService&) = delete;
     RenderService& operator=(const RenderService&) = delete;
     /// Ends the threads after the work at hand.
@@ -43,8 +48,8 @@ class RenderService {
 
     void addClient(ClientId client);
     void removeClient(ClientId client);
-    /// Takes a request for pictures, scenes or their changes. Errors: RequestError.
-    void submit(ClientId client, std::uint64_t id, RenderRequest request);
+    /// Takes a request for pictures, scenes or their changes, and the memory that it holds. Errors: RequestError.
+    void submit(ClientId client, std::uint64_t id, RenderRequest request, MemoryBudget::Share memory = {});
     /// A picture is encoded. Calls `send`, while the service is locked, where its client still waits for it.
     void finish(const FrameTask& task, const EncodingReport& report, const std::function<void()>& send);
     /// A picture could not be encoded.
@@ -54,7 +59,13 @@ class RenderService {
     /// State of the scene that the client sees; none where it sees none.
     std::optional<SceneState> sceneState(ClientId client);
     /// How far the scene is that the client loads; none where it loads none.
-    std::optional<LoadState> loadState(ClientId client) const { return loader_.state(client); }
+    std::optional<LoadState> loadState(ClientId client) const { return desk_.loadState(client); }
+
+    /// Why the service is not ready to draw: its default scene is not there, it ends, or the render thread does not
+    /// move. None where it is ready.
+    std::optional<std::string> notReady();
+    /// Whether the render thread moves.
+    bool alive() const;
 
     /// Refuses new requests, ends streams, gives up loads, and finishes the frames that wait, drawn with the photons
     /// that are there; those that are not done after `shutdownSeconds` fail with `shutting_down`. Returns when all is
@@ -66,49 +77,37 @@ class RenderService {
     void make(Job job);
     void makeFrame(Job job, const FrameRequest& frame, const SlotPointer& slot);
     void leaveOut(const Job& job);
-    void handOver(const Job& job, std::variant<FrameResult, CompositeResult> result, const SlotPointer& slot);
+    void handOver(const Job& job, std::variant<FrameResult, CompositeResult> result, const SlotPointer& slot,
+                  MemoryBudget::Share memory);
     void fail(const Job& job, const Failure& failure);
     void dropSlot(const SlotPointer& slot, const char* event, const std::string& why);
     void applyChanges();
-    bool encodersFull(std::optional<Clock::time_point> due, Clock::time_point now);
+    MemoryBudget::Share roomFor(std::uint64_t bytes);
     void refine(const SlotPointer& slot, bool generation);
 
     void answer(ClientId client, std::uint64_t id, const StopStream& stop);
     void answer(ClientId client, std::uint64_t id, const Cancel& cancel);
     void answer(ClientId client, std::uint64_t id, Change change);
     void submitFrame(Job job);
-    SceneLoader::Host loaderHost();
-    void keepSlot(const SlotPointer& slot);
-    void loaded(const SceneLoader::LoadJob& job, const SlotPointer& slot);
-    void loadFailed(const SceneLoader::LoadJob& job, const Failure& failure);
+    SceneDesk::Host deskHost();
 
     const RenderConfig& config_;
     Metrics& metrics_;
+    EventLog& log_;
+    MemoryBudget& memory_;
     Outlets outlets_;
+    Heartbeat heartbeat_;
 
     std::mutex mutex_;  // guards what follows; slots' insides belong to the render thread once they are held
     std::condition_variable wake_, idle_;
     Scheduler scheduler_;
     SceneStore scenes_;
-    /// A change of light that the render thread has yet to make.
-    struct PendingChange {
-        SlotPointer slot;
-        LightChange light;
-        std::optional<std::size_t> cloud;  ///< whose extinction changes; none: all
-    };
-    std::vector<PendingChange> changes_;
-    struct EncodingCost {
-        std::weak_ptr<SceneSlot> slot;
-        Encoding encoding;
-        EncodingReport report;
-    };
-    std::vector<EncodingCost> encodingCosts_;  // for the slots to learn
-    std::size_t encoding_ = 0;                 // pictures that are drawn and not given back yet
-    bool waitsForEncoders_ = false;
+    PendingChanges changes_;
+    EncodingDesk encoding_;
     bool rendering_ = false;  // the render thread is at a picture
     bool closing_ = false, stopping_ = false;
 
-    SceneLoader loader_;  // has a lock of its own, which is taken after the service's
+    SceneDesk desk_;  // its threads take the service's lock
     std::thread renderThread_;
 };
 

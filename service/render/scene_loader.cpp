@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "service/render/scene_source.h"
-#include "service/telemetry/event_log.h"
 #include "service/values/request_error.h"
 
 namespace lumulus::service {
@@ -17,29 +16,10 @@ namespace {
 
 constexpr std::ptrdiff_t mostWaiting = 4;  // of one client
 
-std::optional<scene::Quality> qualityOf(const std::string& name) {
-    if (name.empty()) return std::nullopt;
-    return name == "draft" ? scene::Quality::draft
-                           : (name == "final" ? scene::Quality::final : scene::Quality::interactive);
-}
-
 }  // namespace
 
-SlotPointer loadDefaultScene(const RenderConfig& config) {
-    LoadScene load;
-    load.name = config.defaultScene;
-    load.quality = qualityOf(config.quality);
-    try {
-        SourcedScene found = sourceScene(load, config, 0);
-        logEvent("info", "scene_loading", {{"scene", found.scene.source}});
-        return std::make_shared<SceneSlot>(found.key, found.scene, config, std::function<void()>(), nullptr);
-    } catch (const std::runtime_error& e) {
-        throw InputError(std::string("the default scene: ") + e.what(), config.defaultScene, "change scenes.default");
-    }
-}
-
-SceneLoader::SceneLoader(const RenderConfig& config, Metrics& metrics, Host host)
-    : config_(config), metrics_(metrics), host_(std::move(host)), thread_([this] { loop(); }) {}
+SceneLoader::SceneLoader(const RenderConfig& config, Instruments& instruments, Host host)
+    : config_(config), instruments_(instruments), host_(std::move(host)), thread_([this] { loop(); }) {}
 
 SceneLoader::~SceneLoader() {
     stop();
@@ -80,6 +60,11 @@ std::optional<bool> SceneLoader::end(const LoadJob& job) {
     if (!loading_) return std::nullopt;
     loading_.reset();
     return waits(job.client);
+}
+
+bool SceneLoader::worksFor(ClientId client) const {
+    const std::lock_guard lock(mutex_);
+    return waits(client) || (loading_ && loading_->client == client);
 }
 
 bool SceneLoader::busy() const {
@@ -134,18 +119,18 @@ SlotPointer SceneLoader::slotFor(const LoadJob& job) {
     const auto start = Clock::now();
     const SourcedScene found = sourceScene(job.load, config_, job.client);
     if (SlotPointer held = host_.find(found.key)) return held;
-    logEvent("info", "scene_loading", {{"client", job.client}, {"scene", found.scene.source}});
+    instruments_.log.event("info", "scene_loading", {{"client", job.client}, {"scene", found.scene.source}});
     const auto abandoned = [this] {
         if (abandon_) throw Cancelled{};
     };
     auto slot = std::make_shared<SceneSlot>(found.key, found.scene, config_, abandoned,
                                             [this](std::string_view step) { noteStep(step); });
     host_.keep(slot);
-    metrics_.add(Metrics::scenesLoaded);
-    logEvent("info", "scene_loaded",
-             {{"client", job.client},
-              {"scene", found.scene.source},
-              {"seconds", std::chrono::duration<double>(Clock::now() - start).count()}});
+    instruments_.metrics.add(Metrics::scenesLoaded);
+    instruments_.log.event("info", "scene_loaded",
+                           {{"client", job.client},
+                            {"scene", found.scene.source},
+                            {"seconds", std::chrono::duration<double>(Clock::now() - start).count()}});
     return slot;
 }
 

@@ -10,12 +10,9 @@
 #include <vector>
 
 #include "service/render/scene_store.h"
-#include "service/telemetry/metrics.h"
+#include "service/telemetry/instruments.h"
 
 namespace lumulus::service {
-
-/// Loads the scene that clients see without asking for one. Errors: InputError.
-SlotPointer loadDefaultScene(const RenderConfig& config);
 
 /// Loads scenes that clients ask for, one after the other, on a thread of its own.
 class SceneLoader {
@@ -24,6 +21,7 @@ class SceneLoader {
         ClientId client = 0;
         std::uint64_t id = 0;
         LoadScene load;
+        std::shared_ptr<MemoryBudget::Share> memory = {};  ///< that the request holds
     };
     /// What the loader calls, on its thread and without its lock.
     struct Host {
@@ -36,8 +34,8 @@ class SceneLoader {
         std::function<void(const LoadJob&, const Failure&)> failed;
     };
 
-    /// `config` and `metrics` must outlive this.
-    SceneLoader(const RenderConfig& config, Metrics& metrics, Host host);
+    /// `config` and `instruments` must outlive this.
+    SceneLoader(const RenderConfig& config, Instruments& instruments, Host host);
     SceneLoader(const SceneLoader&) = delete;
     SceneLoader& operator=(const SceneLoader&) = delete;
     ~SceneLoader();
@@ -49,6 +47,8 @@ class SceneLoader {
     /// Ends the load under way. Returns whether the client waits for another; none where somebody has answered it.
     std::optional<bool> end(const LoadJob& job);
     bool busy() const;
+    /// Whether a load of the client waits or is under way.
+    bool worksFor(ClientId client) const;
     /// How far the client's load is that is under way, or else the one that waits.
     std::optional<LoadState> state(ClientId client) const;
     /// Gives up the load under way, refuses those to come, and returns those that waited.
@@ -66,7 +66,7 @@ class SceneLoader {
     bool waits(ClientId client) const;
 
     const RenderConfig& config_;
-    Metrics& metrics_;
+    Instruments& instruments_;
     Host host_;
 
     mutable std::mutex mutex_;  // guards what follows

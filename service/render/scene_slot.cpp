@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "service/render/client_picture.h"
 #include "service/render/resample.h"
 #include "service/render/views.h"
 #include "service/values/request_error.h"
@@ -78,6 +79,7 @@ SceneSlot::Guarded::~Guarded() {
 void SceneSlot::guard() const {
     stopIfInterrupted();
     if (abandoned_) abandoned_();
+    if (step_) step_();
     if (cancelled_ != nullptr && cancelled_->load()) throw Cancelled{};
     if (Clock::now() > deadline_) throw TooSlow("the scene takes longer than the limits of the service allow");
 }
@@ -86,8 +88,7 @@ SceneDescription SceneSlot::describe() const {
     SceneDescription result;
     result.name = scene_.source;
     result.image = scene_.image;
-    result.sunDirection = renderer_->sun().directionTo;
-    result.sunIrradiance = renderer_->sun().irradiance;
+    result.light = light();
     result.seed = scene_.photonMap.seed;
     result.generations = renderer_->generationsWanted();
     const Statistics statistics = renderer_->statistics();
@@ -97,12 +98,36 @@ SceneDescription SceneSlot::describe() const {
     result.originalSun = scene_.sun;
     result.originalClouds = cloudsOf(scene_);
     if (!scene_.clouds.empty()) {
-        result.extinction = renderer_->extinction();
         result.asymmetry = result.originalClouds[0].asymmetry;
     }
     result.centre = renderer_->bounds().centre;
     result.radius = renderer_->bounds().radius();
     return result;
+}
+
+SceneLight SceneSlot::light() const {
+    const scene::Sun& sun = renderer_->sun();
+    return {sun.directionTo, sun.irradiance,
+            scene_.clouds.empty() ? std::nullopt : std::optional(renderer_->extinction())};
+}
+
+bool SceneSlot::holdMemory(MemoryBudget& budget) {
+    auto share = budget.take(MemoryBudget::scenes, renderer_->statistics().gpuBytesHeld);
+    if (share) memory_ = std::move(*share);
+    return share.has_value();
+}
+
+void SceneSlot::countMemory() {
+    memory_.resize(renderer_->statistics().gpuBytesHeld);
+}
+
+std::uint64_t SceneSlot::pictureBytes(std::uint64_t pixels) {
+    constexpr std::uint64_t layers = 12, bytesEncoded = 16;  // colour, cloud, transmittance, depths; floats of colour
+    return pixels * (layers * sizeof(float) + bytesEncoded);
+}
+
+std::uint64_t SceneSlot::frameBytes(const FrameRequest& frame) const {
+    return pictureBytes(pixelsOf(viewsOf(frame.views)));
 }
 
 PhotonState SceneSlot::photons() const {
@@ -111,7 +136,7 @@ PhotonState SceneSlot::photons() const {
 }
 
 SceneState SceneSlot::state() const {
-    return {scene_.source, photons(), renderer_->generationsWanted(), costs_.traceMs()};
+    return {scene_.source, photons(), renderer_->generationsWanted(), costs_.traceMs(), light()};
 }
 
 std::size_t SceneSlot::findCloud(const CloudReference& cloud) const {
@@ -332,6 +357,7 @@ FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {
         const Guarded guarded(*this, job.cancelled.get());
         drawViews(views, result.reduction, result);
     }
+    countMemory();
     const auto area = static_cast<std::uint64_t>(result.reduction * result.reduction);
     noteDrawn(result, result.reduction == 1 ? rays : pixels / area);
 
@@ -353,16 +379,9 @@ CompositeResult SceneSlot::composite(const Job& job, const Composite& composite)
     request.height = composite.height;
     const View view = viewsOf({request}).front();
     LayeredImage picture;
-    picture.width = composite.width;
-    picture.height = composite.height;
-    picture.layer("A", 1.0F);
-    const char* names[3] = {"R", "G", "B"};
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-        std::vector<float>& layer = picture.layer(names[channel]);
-        for (std::size_t i = 0; i < layer.size(); ++i) layer[i] = composite.color[3 * i + channel];
-    }
+    std::vector<float> depth = readPixels(composite, picture);
     const Guarded guarded(*this, job.cancelled.get());
-    result.image = renderer_->throughFog(view, std::move(picture), composite.depth);
+    result.image = renderer_->throughFog(view, std::move(picture), std::move(depth));
     return result;
 }
 

@@ -16,6 +16,7 @@
 #include "service/render/noise.h"
 #include "service/render/render_config.h"
 #include "service/render/scheduler.h"
+#include "service/telemetry/memory_budget.h"
 #include "service/values/results.h"
 
 namespace lumulus::service {
@@ -38,7 +39,7 @@ class SceneSlot {
     /// `abandoned` is called between the steps; what it throws ends the load. `begins` is told which step begins. Both
     /// may be empty. Errors: InputError, Error, TooSlow.
     SceneSlot(std::string slotKey, const scene::Scene& scene, const RenderConfig& config,
-              const std::function<void()>& abandoned, const std::function<void(std::string_view)>& begins);
+              const std::function<void()>& abandoned, const std::function<void(std::string_view)>& begins = {});
 
     const std::string& key() const { return key_; }
     /// The scene as it was loaded.
@@ -76,6 +77,16 @@ class SceneSlot {
     /// Takes what encoding a picture of this scene cost.
     void noteEncoded(Encoding encoding, double milliseconds, std::uint64_t pixels);
 
+    /// Draws what the scene holds from the budget, and keeps that in step from now on. Returns false where the budget
+    /// does not have it. Before the scene is held.
+    bool holdMemory(MemoryBudget& budget);
+    /// Bytes that the pictures of a frame take until they are encoded.
+    std::uint64_t frameBytes(const FrameRequest& frame) const;
+    /// The same of a picture of so many pixels.
+    static std::uint64_t pictureBytes(std::uint64_t pixels);
+    /// `step` is called between the steps of all work from now on. Before the scene is held.
+    void onStep(std::function<void()> step) { step_ = std::move(step); }
+
   private:
     /// While it lives, work for a job ends where the job is cancelled or takes too long.
     class Guarded {
@@ -90,6 +101,8 @@ class SceneSlot {
     };
 
     SceneDescription describe() const;
+    SceneLight light() const;
+    void countMemory();
     std::vector<View> viewsOf(const std::vector<ViewRequest>& requests) const;
     std::uint64_t raysOf(const std::vector<View>& views) const;
     View smallView() const;
@@ -108,12 +121,13 @@ class SceneSlot {
     std::string key_;
     const scene::Scene scene_;
     const RenderLimits& limits_;
-    std::function<void()> abandoned_;
+    std::function<void()> abandoned_, step_;
     std::function<void(std::string_view)> begins_;  // a step of the load
     const std::atomic<bool>* cancelled_ = nullptr;  // of the job that is drawn
     Clock::time_point deadline_ = Clock::time_point::max();
     std::unique_ptr<Renderer> renderer_;
     ViewState viewer_;  ///< of all views of the scene, which are drawn one after the other; gone before the renderer
+    MemoryBudget::Share memory_;
     SceneDescription description_;
     CostModel costs_;
     NoiseEstimate noise_;

@@ -63,6 +63,7 @@ SourcedScene sourceScene(const LoadScene& load, const RenderConfig& config, std:
             std::error_code ec;
             if (!fs::is_regular_file(upload, ec))
                 throw RequestError("not_found", "no such upload is here: send it first", "vdb");
+            fs::last_write_time(upload, fs::file_time_type::clock::now(), ec);  // it is used, and does not expire
             overrides.push_back("cloud.0.vdb=\"" + fs::absolute(upload).string() + "\"");
         }
         const std::string name = load.name.empty() ? "inline" : load.name;

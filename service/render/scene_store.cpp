@@ -24,14 +24,27 @@ bool SceneStore::seen(const SlotPointer& slot) const {
     return slot == default_ || std::ranges::any_of(shownTo_, [&](const auto& entry) { return entry.second == slot; });
 }
 
+std::vector<ClientId> SceneStore::withoutScene() const {
+    std::vector<ClientId> clients;
+    for (const auto& [client, shown] : shownTo_)
+        if (!shown) clients.push_back(client);
+    return clients;
+}
+
+SlotPointer SceneStore::dropUnseen() {
+    const auto unused = std::ranges::find_if_not(slots_, [this](const SlotPointer& one) { return seen(one); });
+    if (unused == slots_.end()) return nullptr;
+    SlotPointer dropped = *unused;
+    drop(dropped);
+    return dropped;
+}
+
 SlotPointer SceneStore::keep(const SlotPointer& slot) {
     SlotPointer dropped;
     if (slots_.size() >= most_) {
-        const auto unused = std::ranges::find_if_not(slots_, [this](const SlotPointer& one) { return seen(one); });
-        if (unused == slots_.end())
+        dropped = dropUnseen();
+        if (!dropped)
             throw RequestError("busy", "all " + std::to_string(most_) + " scenes that the service holds are in use");
-        dropped = *unused;
-        drop(dropped);
     }
     slots_.push_back(slot);
     publish(*slot);
@@ -70,6 +83,11 @@ std::optional<SceneState> SceneStore::state(ClientId client) const {
     const SlotPointer slot = shownTo(client);
     for (const auto& [other, shown] : shownTo_) state.clients += shown == slot ? 1U : 0U;
     return state;
+}
+
+std::optional<SceneState> SceneStore::stateOf(const SceneSlot& slot) const {
+    const auto it = published_.find(slot.key());
+    return it == published_.end() ? std::nullopt : std::optional(it->second.state);
 }
 
 bool SceneStore::starves(const SceneSlot& slot, Clock::time_point now) {

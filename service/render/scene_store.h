@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "service/render/scene_slot.h"
 
@@ -29,12 +30,17 @@ class SceneStore {
     SlotPointer shownTo(ClientId client) const;
 
     void setDefault(SlotPointer slot) { default_ = std::move(slot); }
+    /// Clients that see no scene.
+    std::vector<ClientId> withoutScene() const;
+    bool hasDefault() const { return default_ != nullptr; }
     /// A scene by its key; null where it is not held.
     SlotPointer find(const std::string& key) const;
     bool holds(const SlotPointer& slot) const;
     /// Takes a scene. Where there are too many, the oldest that nobody sees goes, and is returned: it takes its time to
     /// end, so let it end without the lock. Errors: RequestError `busy` where all are seen.
     SlotPointer keep(const SlotPointer& slot);
+    /// Forgets the oldest scene that nobody sees, and returns it; null where there is none.
+    SlotPointer dropUnseen();
     /// Forgets a scene; its clients have none any more.
     void drop(const SlotPointer& slot);
     std::size_t size() const { return slots_.size(); }
@@ -44,6 +50,8 @@ class SceneStore {
     /// Revision of the scene that a client sees; 0 where it has none.
     std::uint64_t revision(ClientId client) const;
     std::optional<SceneState> state(ClientId client) const;
+    /// State of a scene; none where it is not held.
+    std::optional<SceneState> stateOf(const SceneSlot& slot) const;
 
     /// Of the scenes that are seen and can be refined, the one whose photons have waited longest, if there is time for
     /// a step before a picture is `due`, or if it starves. Null where there is none. Only the thread that may use the

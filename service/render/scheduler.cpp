@@ -112,7 +112,7 @@ std::optional<Job> Scheduler::takeFrom(ClientId id, Client& client, Clock::time_
     }
     if (best == client.streams.end()) return std::nullopt;
     Stream& stream = best->second;
-    Job job{id, best->first, workOf(stream.request.frame), now, true, stream.frames++};
+    Job job{id, best->first, workOf(stream.request.frame), {}, now, true, stream.frames++};
     stream.seen = current;
     // a frame that comes late does not make those after it come in a bunch
     stream.due = std::max(stream.due + period(stream.request.maxRate), now);

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "service/telemetry/memory_budget.h"
 #include "service/values/requests.h"
 
 namespace lumulus::service {
@@ -21,7 +22,8 @@ struct Job {
     ClientId client = 0;
     std::uint64_t id = 0;
     std::shared_ptr<const std::variant<FrameRequest, Composite>> work;
-    Clock::time_point arrived;  ///< of a stream: when it was due
+    std::shared_ptr<MemoryBudget::Share> memory = {};  ///< that the request holds
+    Clock::time_point arrived;                         ///< of a stream: when it was due
     bool stream = false;
     std::uint64_t number = 0;  ///< of the frame in its stream
     bool begun = false;        ///< whether its light is applied

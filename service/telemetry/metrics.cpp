@@ -20,7 +20,7 @@ constexpr std::array<Description, Metrics::names> descriptions{{
     {"connections_refused_total", true, "Connections refused: too many were open"},
     {"requests_total", true, "Requests understood"},
     {"requests_refused_total", true, "Requests answered with an error"},
-    {"tokens_refused_total", true, "Connections that ended before a valid hello"},
+    {"tokens_refused_total", true, "Wrong tokens"},
     {"frames_total", true, "Frames made"},
     {"frames_superseded_total", true, "Frames that a newer request replaced"},
     {"frames_reduced_total", true, "Frames drawn with fewer pixels to keep a deadline"},
@@ -35,6 +35,14 @@ constexpr std::array<Description, Metrics::names> descriptions{{
     {"sent_bytes_total", true, "Bytes written to clients"},
     {"timeouts_total", true, "Connections closed for being slow or silent"},
     {"encoder_waits_total", true, "Times that drawing waited for pictures to be encoded"},
+    {"log_lines_lost_total", true, "Lines of the log that stderr did not take"},
+    {"memory_limit_bytes", false, "Memory that clients may make the service hold"},
+    {"memory_bytes", false, "Memory that clients make the service hold"},
+    {"memory_messages_bytes", false, "Of it, messages on their way in and replies on their way out"},
+    {"memory_uploads_bytes", false, "Of it, pieces of uploads"},
+    {"memory_frames_bytes", false, "Of it, pictures, drawn or encoded"},
+    {"memory_scenes_bytes", false, "Of it, scenes"},
+    {"memory_refusals_total", true, "Times that there was no memory for what a client asked"},
 }};
 
 /// Of the histogram's buckets [s].

@@ -38,6 +38,14 @@ class Metrics {
         bytesSent,
         timeouts,
         encoderWaits,
+        logLinesLost,
+        memoryLimit,
+        memoryUsed,
+        memoryMessages,
+        memoryUploads,
+        memoryFrames,
+        memoryScenes,
+        memoryRefusals,
         names
     };
 

@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 struct LoadScene {
     std::string name;  ///< in the folder of scenes; empty: `toml`
     std::string toml;
-    std::string vdb;  ///< SHA-256 of an upload that takes the place of the scene's cloud
+    std::string vdb;  ///< SHA-256 (64 hexadecimal digits) of an upload that takes the place of the scene's cloud
     std::vector<std::string> overrides;
     std::optional<scene::Quality> quality;
     bool isPrivate = false;  ///< photons and light of its own
@@ -106,8 +106,9 @@ struct Composite {
     int width = 0, height = 0;
     CameraRequest camera;
     PictureFormat format;
-    std::vector<float> color;  ///< RGB, pixel by pixel
-    std::vector<float> depth;  ///< metres from the eye, unless the scene's `fog.depth` says otherwise
+    /// Floats, little-endian: RGB pixel by pixel, then the depth of each pixel, in metres from the eye unless the
+    /// scene's `fog.depth` says otherwise. Not looked at yet: there may be many.
+    std::vector<std::byte> pixels;
 };
 
 struct Cancel {

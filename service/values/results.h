@@ -31,17 +31,23 @@ struct CloudDescription {
     std::optional<double> asymmetry;  ///< g of the phase function; absent for those that have none
 };
 
-/// What a scene is, at the time it was loaded.
+/// The light under which a scene is drawn, and what scatters it.
+struct SceneLight {
+    glm::dvec3 sunDirection{0.0};      ///< unit vector towards the sun
+    glm::dvec3 sunIrradiance{0.0};     ///< W/m² for each colour channel
+    std::optional<double> extinction;  ///< 1/m, of the first cloud; absent where the scene has none
+};
+
+/// What a scene is: as it was loaded, but for the light, which is that of now.
 struct SceneDescription {
     std::string name;
     scene::Image image;
-    glm::dvec3 sunDirection{0.0}, sunIrradiance{0.0};
+    SceneLight light;
     std::uint64_t seed = 0;
     int generations = 0;  ///< that fill the ring
     std::uint64_t collectors = 0;
     std::string device;
     std::vector<std::string> warnings;
-    std::optional<double> extinction;              ///< 1/m; absent where the scene has no cloud
     std::optional<double> asymmetry;               ///< g of the phase function; absent for those that have none
     scene::Sun originalSun;                        ///< as the file says, whatever the light is now
     std::vector<CloudDescription> originalClouds;  ///< as the file says
@@ -55,7 +61,8 @@ struct SceneState {
     PhotonState photons;
     int generationsWanted = 0;
     double traceMilliseconds = 0.0;  ///< of a generation, lately
-    std::uint64_t clients = 0;       ///< that are shown the scene, and share its light
+    SceneLight light;
+    std::uint64_t clients = 0;  ///< that are shown the scene, and share its light
 };
 
 /// How far the loading of a client's scene is.
@@ -97,6 +104,13 @@ struct CompositeResult {
     LayeredImage image;
     double exposure = 0.0;  ///< stops, of the scene
     double waitedMilliseconds = 0.0;
+};
+
+/// A file that a client has uploaded.
+struct StoredUpload {
+    std::string hash;  ///< SHA-256, 64 hexadecimal digits
+    std::uint64_t bytes = 0;
+    double secondsLeft = 0.0;  ///< before it expires, unless it is used
 };
 
 struct StreamStopped {

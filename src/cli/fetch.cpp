@@ -26,11 +26,15 @@ std::string readToken(const std::filesystem::path& path) {
     return token;
 }
 
-void loadScene(Client& client, const FetchOptions& options) {
+/// `uploaded` becomes the hash of the file that is sent.
+void loadScene(Client& client, const FetchOptions& options, std::string& uploaded) {
     std::map<std::string, std::string> fields;
     if (!options.overrides.empty()) fields["set"] = json(options.overrides).dump();
     if (!options.quality.empty()) fields["quality"] = json(options.quality).dump();
-    if (!options.vdb.empty()) fields["vdb"] = json(client.upload(options.vdb.string())).dump();
+    if (!options.vdb.empty()) {
+        uploaded = client.upload(options.vdb.string());
+        fields["vdb"] = json(uploaded).dump();
+    }
     const bool wanted = !options.scene.empty() || !fields.empty();
     if (!wanted) return;
     const std::string name = options.scene.empty() ? json::parse(client.welcome()).value("scene", "") : options.scene;
@@ -58,11 +62,16 @@ FrameQuery queryOf(const FetchOptions& options) {
 }
 
 /// Throws InputError for requests that the server refuses as wrong, Error for other failures.
-[[noreturn]] void rethrow(const ClientError& error, const FetchOptions& options) {
+[[noreturn]] void rethrow(const ClientError& error, const FetchOptions& options, const std::string& uploaded) {
+    // the server knows the file by its hash, its owner by its name
+    std::string text = error.what();
+    const std::string name = "upload " + uploaded;
+    const std::size_t at = uploaded.empty() ? std::string::npos : text.find(name);
+    if (at != std::string::npos) text.replace(at, name.size(), options.vdb.string());
     const bool usage = error.code == "bad_request" || error.code == "not_found" || error.code == "too_large" ||
                        error.code == "unauthorized" || error.code == "no_scene";
-    if (usage) throw InputError(error.what(), options.address, "change the request (" + error.code + ")");
-    throw Error(error.what(), options.address,
+    if (usage) throw InputError(text, options.address, "change the request (" + error.code + ")");
+    throw Error(text, options.address,
                 error.code == "connection" ? "is lumulus serve running there?" : "try again (" + error.code + ")");
 }
 
@@ -71,9 +80,10 @@ FrameQuery queryOf(const FetchOptions& options) {
 void runFetch(const FetchOptions& options) {
     requireSuffix(options.output, {".exr", ".png", ".jpg", ".jpeg"});
     checkWritable(options.output);
+    std::string uploaded;
     try {
         Client client(options.address, readToken(options.tokenFile), options.timeout);
-        loadScene(client, options);
+        loadScene(client, options, uploaded);
         const Frame frame = client.frame(queryOf(options));
         const FrameView& view = frame.views.at(0);
         writeFile(options.output, std::span(frame.payload).subspan(view.offset, view.bytes));
@@ -82,7 +92,7 @@ void runFetch(const FetchOptions& options) {
         else if (!options.stats.empty())
             writeFile(options.stats, std::as_bytes(std::span(frame.json)));
     } catch (const ClientError& e) {
-        rethrow(e, options);
+        rethrow(e, options, uploaded);
     }
 }
 

@@ -4,6 +4,7 @@ import hashlib
 import os
 import resource
 import signal
+import subprocess
 import threading
 import time
 import unittest
@@ -73,8 +74,9 @@ class Faults(ServiceTest):
         with self.server.client() as client:
             digest = client.upload(path)
             with open(path, "rb") as file:
-                self.assertEqual(digest, hashlib.sha256(file.read()).hexdigest())
-            self.assertEqual(self.uploads(), [digest + ".vdb"])
+                self.assertEqual(digest, "sha256:" + hashlib.sha256(file.read()).hexdigest())
+            self.assertEqual(self.uploads(), [digest.removeprefix("sha256:") + ".vdb"])
+            self.assertEqual([entry["hash"] for entry in client.list_uploads()["uploads"]], [digest])
             client.load_scene("small.toml", vdb=digest)
             self.assertGreater(client.frame().values()[..., 3].max(), 0.1)
             with self.assertRaises(ServiceError) as caught:
@@ -84,11 +86,24 @@ class Faults(ServiceTest):
             junk = os.path.join(self.server.folder, "junk.vdb")
             with open(junk, "wb") as file:
                 file.write(os.urandom(5000))
+            junk_digest = client.upload(junk)
             with self.assertRaises(ServiceError) as caught:
-                client.load_scene("small.toml", vdb=client.upload(junk))
+                client.load_scene("small.toml", vdb=junk_digest)
             self.assertEqual(caught.exception.code, "bad_request")
-        for name in self.uploads():
-            os.remove(os.path.join(self.server.folder, "uploads", name))
+            # the message names the upload, and nothing of the server
+            self.assertIn("upload " + junk_digest, str(caught.exception))
+            self.assertNotIn(self.server.folder, str(caught.exception))
+            fetched = subprocess.run([LUMULUS, "fetch", "--address", self.server.tcp, "--vdb", junk, "-o",
+                                      os.path.join(self.server.folder, "out.png")], capture_output=True, text=True)
+            self.assertEqual(fetched.returncode, 2)
+            self.assertIn(f"({junk})", fetched.stderr)
+            self.assertNotIn("uploads", fetched.stderr)
+            with self.server.client() as another:  # of the same address
+                self.assertTrue(another.delete_upload(digest))
+                self.assertTrue(another.delete_upload(junk_digest))
+                self.assertFalse(another.delete_upload(digest))
+                self.assertEqual(another.list_uploads()["uploads"], [])
+        self.assertEqual(self.uploads(), [])
 
 
 class FullDisk(ServiceTest):

@@ -1,6 +1,7 @@
 """Frames over the socket: what they hold, that `render` makes the same, channels, streams, deadlines, idleness."""
 
 import os
+import re
 import socket
 import subprocess
 import sys
@@ -201,6 +202,32 @@ class Behaviour(ServiceTest):
                     client.change(cloud=cloud, extinction=0.05)
                 self.assertEqual((caught.exception.code, caught.exception.where), ("not_found", "cloud"))
             self.assertEqual(client.frame().info["repeat"][-1].split("=")[0], "photon_map.photons")
+
+    def test_a_scene_loaded_again_tells_the_light_of_now(self):
+        with self.server.client() as client:
+            loaded = client.load_scene("small.toml", private=True)
+            self.assertAlmostEqual(loaded["extinction"], 0.03)
+            client.change(sun={"azimuth": 90, "elevation": 0, "irradiance": [1, 2, 3]}, extinction=0.04)
+            again = client.load_scene("small.toml", private=True)  # before or after the change is made
+            self.assertAlmostEqual(again["extinction"], 0.04)
+            self.assertEqual(again["sun"]["irradiance"], [1, 2, 3])
+            for told, wanted in zip(again["sun"]["direction_to"], (1, 0, 0)):
+                self.assertAlmostEqual(told, wanted)
+            client.frame(sun={"azimuth": 180, "elevation": 0}, extinction=0.05)
+            again = client.load_scene("small.toml", private=True)
+            self.assertAlmostEqual(again["extinction"], 0.05)
+            self.assertAlmostEqual(again["sun"]["direction_to"][2], 1)
+            state = client.statistics()["scene"]
+            self.assertAlmostEqual(state["extinction"], 0.05)
+            self.assertAlmostEqual(state["sun"]["direction_to"][2], 1)
+
+    def test_pass_names_are_documented(self):
+        with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "protocol.md")) as file:
+            documented = set(re.findall(r"`([a-z ]+)`", file.read()))
+        with self.server.client() as client:
+            passes = set(client.frame(width=32, height=24).info["milliseconds"]["passes"])
+        self.assertTrue(passes)
+        self.assertEqual(passes - documented, set())
 
     def test_scenes_of_others_are_left_alone(self):
         with self.server.client() as one, self.server.client() as other:

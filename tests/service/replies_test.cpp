@@ -77,8 +77,21 @@ TEST(Replies, AnswersHaveTheTypeOfTheirRequest) {
 
 TEST(Replies, StatisticsHaveTheSceneWhereThereIsOne) {
     EXPECT_EQ(statisticsReply(1, {{"frames_total", 3}}, std::nullopt).json, R"({"frames_total":3})");
-    const Message message = statisticsReply(1, {}, SceneState{"small.toml", {0, 4, 4, 100}, 20, 1.5});
-    EXPECT_EQ(json::parse(message.json)["scene"]["photons"], 400);
+    const SceneLight light{{0.0, 1.0, 0.0}, {1.0, 2.0, 3.0}, 0.5};
+    const Message message = statisticsReply(1, {}, SceneState{"small.toml", {0, 4, 4, 100}, 20, 1.5, light});
+    const json scene = json::parse(message.json)["scene"];
+    EXPECT_EQ(scene["photons"], 400);
+    EXPECT_EQ(scene["sun"], json::parse(R"({"direction_to":[0.0,1.0,0.0],"irradiance":[1.0,2.0,3.0]})"));
+    EXPECT_EQ(scene["extinction"], 0.5);
+}
+
+TEST(Replies, UploadsAreSpelledAsInRequests) {
+    const std::string hash(64, 'a');
+    const json body = json::parse(uploadsReply(1, {{hash, 10, 1.5}, {hash, 20, 0.0}}, 100).json);
+    EXPECT_EQ(body["uploads"][0], (json{{"hash", "sha256:" + hash}, {"bytes", 10}, {"seconds_left", 1.0}}));
+    EXPECT_EQ(body["bytes"], 30);
+    EXPECT_EQ(body["most_bytes"], 100);
+    EXPECT_EQ(uploadDeletedReply(1, true).json, R"({"found":true})");
 }
 
 TEST(Replies, StatisticsTellHowFarALoadIs) {

@@ -127,10 +127,49 @@ TEST(Requests, ACompositeHasItsPixels) {
     EXPECT_EQ(refusal(request(MessageType::composite, R"({"width":2,"height":1})", std::vector<std::byte>(32))),
               "taken");
     EXPECT_EQ(refusal(request(MessageType::composite, R"({"width":0,"height":1})")), "bad_request: width");
-    std::vector<std::byte> infinite(16);
-    infinite[3] = std::byte{0x7F};
-    infinite[2] = std::byte{0x80};
-    EXPECT_EQ(refusal(request(MessageType::composite, R"({"width":1,"height":1})", infinite)), "bad_request: ");
+}
+
+TEST(Requests, IdsHave64Bits) {
+    const auto stream = [](const std::string& id) {
+        return std::get<StopStream>(parseRequest(request(MessageType::stopStream, R"({"stream":)" + id + "}"), {}))
+            .stream;
+    };
+    EXPECT_EQ(stream("18446744073709551615"), 18446744073709551615U);
+    EXPECT_EQ(stream("9007199254740993"), 9007199254740993U);  // no double
+    EXPECT_EQ(stream("3.0"), 3U);
+    EXPECT_EQ(stream(R"("18446744073709551615")"), 18446744073709551615U);
+    const Request cancel = parseRequest(request(MessageType::cancel, R"({"request":18446744073709551614})"), {});
+    EXPECT_EQ(std::get<Cancel>(cancel).request, 18446744073709551614U);
+    for (const char* bad : {"-1", "1.5", "18446744073709551616", R"("")", R"("1x")", R"("-1")", "true", "null", "[1]"})
+        EXPECT_EQ(refusal(request(MessageType::stopStream, R"({"stream":)" + std::string(bad) + "}")),
+                  "bad_request: stream")
+            << bad;
+}
+
+TEST(Requests, AKeyTwiceIsAnError) {
+    EXPECT_EQ(frameRefusal(R"({"width":8,"width":9})"), "bad_request: width");
+    EXPECT_EQ(frameRefusal(R"({"camera":{"vertical_fov":30,"vertical_fov":30}})"), "bad_request: vertical_fov");
+    EXPECT_EQ(frameRefusal(R"({"views":[{"width":8,"height":8},{"width":8,"height":8}],"time":1})"), "taken");
+    EXPECT_EQ(frameRefusal(R"({"w\u0069dth":8,"width":9})"), "bad_request: width");
+}
+
+TEST(Requests, AHashIsSpelledAsInReplies) {
+    const std::string digits(64, 'b');
+    const auto remove = [](const std::string& hash) {
+        return refusal(request(MessageType::deleteUpload, R"({"hash":")" + hash + R"("})"));
+    };
+    EXPECT_EQ(remove("sha256:" + digits), "taken");
+    EXPECT_EQ(remove(digits), "taken");
+    EXPECT_EQ(remove("md5:" + digits), "bad_request: hash");
+    EXPECT_EQ(remove("sha256:sha256:" + digits), "bad_request: hash");
+    EXPECT_EQ(digitsOfHash("sha256:" + digits), digits);
+    const Request load =
+        parseRequest(request(MessageType::loadScene, R"({"name":"x","vdb":"sha256:)" + digits + R"("})"), {});
+    EXPECT_EQ(std::get<LoadScene>(load).vdb, digits);
+}
+
+TEST(Requests, ASceneIsAsSmallAsAFileOfOne) {
+    EXPECT_EQ(refusal(request(MessageType::loadScene, "{}", std::vector<std::byte>((1U << 20U) + 1))), "too_large: ");
 }
 
 TEST(Requests, AChangeMayNameTheCloudOfItsExtinction) {

@@ -69,9 +69,14 @@ default = "small.toml"
             self.listen()
 
     def listen(self):
-        """Waits until it does."""
+        """Waits until it listens, and its scene is there."""
+        self.listening()
+        self.event("ready", 120)
+
+    def listening(self):
+        """Waits until it listens."""
         listening = self.event("listening", 120)
-        self.tcp, self.http = listening["frames"][0], listening["http"]
+        self.tcp, self.http = next(iter(listening["frames"]), ""), listening["http"]
 
     def _read(self):
         for line in self.process.stderr:

@@ -73,6 +73,7 @@ TEST_F(SessionTest, WrongTokensAreRefusedEveryTime) {
         ASSERT_EQ(codeOf(result), "unauthorized");
         ASSERT_TRUE(result.close);
         ASSERT_FALSE(stranger.greeted());
+        ASSERT_TRUE(stranger.wrongToken());
         ASSERT_TRUE(stranger.receive(encoded(request(MessageType::ping, ""))).replies.empty());
     }
 }
@@ -96,6 +97,37 @@ TEST_F(SessionTest, BrokenFramingEndsIt) {
     bytes[0] = std::byte{0};
     EXPECT_EQ(codeOf(session.receive(bytes)), "bad_message");
     EXPECT_TRUE(session.receive(encoded(request(MessageType::ping, ""))).close);
+}
+
+TEST_F(SessionTest, AFewMessagesAtATime) {
+    hello();
+    std::vector<std::byte> bytes;
+    for (int i = 0; i < 40; ++i) {
+        const auto ping = encoded(request(MessageType::ping, ""));
+        bytes.insert(bytes.end(), ping.begin(), ping.end());
+    }
+    std::span<const std::byte> rest = bytes;
+    EXPECT_EQ(session.receive(rest, 16).replies.size(), 16U);
+    EXPECT_EQ(rest.size(), bytes.size() - 16 * headerBytes);
+    EXPECT_EQ(session.receive(rest, 16).replies.size(), 16U);
+    EXPECT_EQ(session.receive(rest, 16).replies.size(), 8U);
+    EXPECT_TRUE(rest.empty());
+}
+
+TEST_F(SessionTest, TellsWhatItHoldsAndMayBeToldToRefuse) {
+    hello();
+    Message upload = request(MessageType::upload, R"({"hash":")" + std::string(64, 'a') + R"(","size":100,"offset":0})",
+                             std::vector<std::byte>(100));
+    upload.id = 99;
+    const auto bytes = encoded(upload);
+    EXPECT_EQ(session.held(), 0U);
+    session.receive(std::span(bytes).first(bytes.size() - 40));
+    EXPECT_EQ(session.held(), upload.json.size() + 60);
+    const auto refused = session.refuse({"busy", "no memory"});
+    EXPECT_EQ(codeOf(refused), "busy");
+    EXPECT_EQ(refused.replies[0].id, 99U);
+    EXPECT_TRUE(refused.close);
+    EXPECT_TRUE(session.receive(encoded(request(MessageType::ping, ""))).replies.empty());
 }
 
 /// Every valid message with each of its bytes replaced: a reply, a request or patience, never anything else.

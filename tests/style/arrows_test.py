@@ -31,6 +31,7 @@ OWNERS = {
     "OpenVDB::openvdb": {"vdb"},
     "Vulkan::Headers": {"volk"},
     "lumulus_volk": {"gpu"},
+    "PkgConfig::Systemd": {"service"},
 }
 # Link lines that must not pass, each with a part of what is said of it.
 MISTAKES = {

@@ -48,6 +48,8 @@ inline std::vector<Message> validMessages() {
         request(MessageType::statistics, "{}"),
         request(MessageType::ping, "{}"),
         request(MessageType::change, R"({"extinction":0.2})"),
+        request(MessageType::listUploads, "{}"),
+        request(MessageType::deleteUpload, R"({"hash":"sha256:)" + hash + R"("})"),
         request(MessageType::listScenes, "{}"),
     };
 }

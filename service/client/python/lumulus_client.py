@@ -18,7 +18,8 @@ MAGIC, VERSION = 0x534C4D4C, 1
 HEADER = struct.Struct("<IHHQIIQ")  # magic, version, type, id, bytes of JSON, reserved, bytes of payload
 REPLY, ERROR = 0x8000, 0x8000
 TYPES = {"hello": 1, "load_scene": 2, "upload": 3, "frame": 4, "start_stream": 5, "stop_stream": 6, "composite": 7,
-         "cancel": 8, "statistics": 9, "ping": 10, "change": 11, "list_scenes": 14}
+         "cancel": 8, "statistics": 9, "ping": 10, "change": 11, "list_uploads": 12, "delete_upload": 13,
+         "list_scenes": 14}
 CHUNK = 1 << 20
 
 
@@ -153,15 +154,24 @@ class Client:
         with open(path, "rb") as file:
             while chunk := file.read(CHUNK):
                 digest.update(chunk)
+            spelled = "sha256:" + digest.hexdigest()
             file.seek(0)
             offset = 0
             while offset < size:
                 chunk = file.read(CHUNK)
-                info, _ = self.ask("upload", {"hash": digest.hexdigest(), "size": size, "offset": offset}, chunk)
+                info, _ = self.ask("upload", {"hash": spelled, "size": size, "offset": offset}, chunk)
                 if info["complete"]:
                     break
                 offset += len(chunk)
-        return digest.hexdigest()
+        return spelled
+
+    def list_uploads(self):
+        """What this address has uploaded: {"uploads": [{"hash", "bytes", "seconds_left"}], "bytes", "most_bytes"}."""
+        return self.ask("list_uploads")[0]
+
+    def delete_upload(self, digest):
+        """Deletes an upload of this address. Returns whether there was one."""
+        return self.ask("delete_upload", {"hash": digest})[0]["found"]
 
     def frame(self, **fields):
         return Frame(*self.ask("frame", fields))

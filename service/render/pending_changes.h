@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "service/render/scene_store.h"
+
+namespace lumulus::service {
+
+/// Changes of light that clients were promised and the render thread has yet to make. The caller locks.
+class PendingChanges {
+  public:
+    struct Change {
+        SlotPointer slot;
+        LightChange light;
+        std::optional<std::size_t> cloud;  ///< whose extinction changes; none: all
+    };
+
+    void add(Change change) { changes_.push_back(std::move(change)); }
+    bool any() const { return !changes_.empty(); }
+    /// All of them, in the order in which they came; they are forgotten.
+    std::vector<Change> takeAll() { return std::exchange(changes_, {}); }
+    /// The light of a scene when its changes are made.
+    SceneLight after(SceneLight light, const SlotPointer& slot) const;
+
+  private:
+    std::vector<Change> changes_;
+};
+
+}  // namespace lumulus::service

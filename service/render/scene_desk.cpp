@@ -1,0 +1,143 @@
+#include "service/render/scene_desk.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "service/values/request_error.h"
+
+namespace lumulus::service {
+
+SceneDesk::SceneDesk(const RenderConfig& config, Instruments& instruments, Host host)
+    : instruments_(instruments),
+      host_(std::move(host)),
+      defaultPending_(!config.defaultScene.empty()),
+      loader_(config, instruments, loaderHost()) {
+    if (defaultPending_)
+        default_ = std::make_unique<DefaultScene>(config, instruments, defaultHost());
+    else
+        host_.begun(nullptr);
+}
+
+void SceneDesk::stop() {
+    loader_.stop();
+    default_.reset();
+}
+
+void SceneDesk::submit(SceneLoader::LoadJob job) {
+    const ClientId client = job.client;
+    loader_.submit(std::move(job));
+    host_.scheduler.setWaiting(client, true);
+}
+
+void SceneDesk::addClient(ClientId client) {
+    letWait(client, false);
+}
+
+/// Nothing of a client is taken while it waits for a scene.
+void SceneDesk::letWait(ClientId client, bool loads) {
+    host_.scheduler.setWaiting(client, loads || (defaultPending_ && !host_.scenes.shownTo(client)));
+}
+
+std::vector<SceneLoader::LoadJob> SceneDesk::close() {
+    if (std::exchange(defaultPending_, false)) {
+        default_->abandon();
+        defaultEnded_.notify_all();
+        for (const ClientId client : host_.scenes.withoutScene()) host_.scheduler.setWaiting(client, false);
+    }
+    std::vector<SceneLoader::LoadJob> waiting = loader_.close();
+    for (const auto& job : waiting) host_.scheduler.setWaiting(job.client, false);
+    return waiting;
+}
+
+/// A scene that is held, or will be: who asks for the default scene waits for it.
+SlotPointer SceneDesk::find(const std::string& key) {
+    std::unique_lock lock(host_.mutex);
+    if (default_ && default_->key() == key) defaultEnded_.wait(lock, [this] { return !defaultPending_; });
+    return host_.scenes.find(key);
+}
+
+SceneLoader::Host SceneDesk::loaderHost() {
+    SceneLoader::Host host;
+    host.find = [this](const std::string& key) { return find(key); };
+    host.keep = [this](const SlotPointer& slot) { keep(slot); };
+    host.loaded = [this](const SceneLoader::LoadJob& job, const SlotPointer& slot) { loaded(job, slot); };
+    host.failed = [this](const SceneLoader::LoadJob& job, const Failure& failure) { loadFailed(job, failure); };
+    return host;
+}
+
+DefaultScene::Host SceneDesk::defaultHost() {
+    DefaultScene::Host host;
+    host.loaded = [this](const SlotPointer& slot) { defaultLoaded(slot); };
+    host.failed = [this](const std::exception_ptr& error) { host_.begun(error); };
+    return host;
+}
+
+void SceneDesk::keep(const SlotPointer& slot) {
+    while (!slot->holdMemory(instruments_.memory)) {
+        SlotPointer unseen;  // ends after the lock, and gives its memory back
+        const std::lock_guard lock(host_.mutex);
+        unseen = host_.scenes.dropUnseen();
+        if (!unseen) throw RequestError("busy", "there is no memory for another scene now: try again later");
+    }
+    slot->onStep(host_.step);
+    SlotPointer dropped;  // ends after the lock
+    const std::lock_guard lock(host_.mutex);
+    dropped = host_.scenes.keep(slot);
+    instruments_.metrics.set(Metrics::scenesHeld, static_cast<std::int64_t>(host_.scenes.size()));
+}
+
+void SceneDesk::defaultLoaded(const SlotPointer& slot) {
+    keep(slot);
+    {
+        const std::lock_guard lock(host_.mutex);
+        if (!std::exchange(defaultPending_, false)) return;
+        host_.scenes.setDefault(slot);
+        for (const ClientId client : host_.scenes.withoutScene()) {
+            host_.scenes.show(client, slot);
+            letWait(client, loader_.worksFor(client));
+        }
+    }
+    defaultEnded_.notify_all();
+    host_.begun(nullptr);
+    host_.ended();
+}
+
+/// The scene, under the light that the next picture shows. With the lock held.
+SceneDescription SceneDesk::describe(const SlotPointer& slot) const {
+    SceneDescription description = slot->description();
+    if (const auto state = host_.scenes.stateOf(*slot)) description.light = host_.changes.after(state->light, slot);
+    return description;
+}
+
+void SceneDesk::loaded(const SceneLoader::LoadJob& job, const SlotPointer& slot) {
+    {
+        const std::lock_guard lock(host_.mutex);
+        const bool known = host_.scenes.knows(job.client);
+        if (known && !host_.scenes.holds(slot)) throw RequestError("busy", "the scene has gone: load it again");
+        const std::optional<bool> waits = loader_.end(job);
+        if (known && waits) {
+            host_.scenes.show(job.client, slot);
+            letWait(job.client, *waits);
+            host_.reply(job.client, job.id, describe(slot));
+        }
+    }
+    host_.ended();
+}
+
+void SceneDesk::loadFailed(const SceneLoader::LoadJob& job, const Failure& failure) {
+    bool answered = false;
+    {
+        const std::lock_guard lock(host_.mutex);
+        if (const std::optional<bool> waits = loader_.end(job)) {
+            letWait(job.client, *waits);
+            host_.reply(job.client, job.id, failure);
+            answered = true;
+        }
+    }
+    host_.ended();
+    if (!answered) return;
+    instruments_.log.event("warning", "scene_refused",
+                           {{"client", job.client}, {"code", failure.code}, {"message", failure.text}});
+}
+
+}  // namespace lumulus::service
