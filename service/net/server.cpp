@@ -154,8 +154,8 @@ class Server {
 
     const Config& config_;
     Instruments instruments_;
+    LastResort resort_{instruments_.log};  // ends after all other threads
     Supervisor supervisor_;
-    LastResort resort_{instruments_.log};  // ends after the threads of the hub
     asio::io_context io_{1};
     Hub hub_;
     FrameServer frames_;

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <atomic>
+#include <memory>
 #include <string>
 
+#include "service/net/encoder_pool.h"
 #include "service/values/requests.h"
 
 namespace lumulus::service {
 
-/// Tells systemd how the service is (sd_notify(3)); nothing where systemd did not start it.
+/// Tells systemd how the service is (sd_notify(3)); nothing where systemd did not start it. Nobody waits for systemd:
+/// it is told on a thread of its own, and not told what it has no room for.
 class Supervisor {
   public:
     Supervisor();
@@ -19,8 +23,12 @@ class Supervisor {
     void alive(Clock::time_point now);
 
   private:
+    void tell(const std::string& state);
+
     Clock::duration period_ = Clock::duration::zero();  // of the watchdog; zero: there is none
     Clock::time_point told_;
+    std::atomic<int> waiting_{0};          // of what is to be told
+    std::unique_ptr<EncoderPool> thread_;  // null where there is no systemd; last: ends first
 };
 
 }  // namespace lumulus::service

@@ -12,6 +12,7 @@ lumulus_study(studies.unseen scores ${tiny} --unseen --scenes stratus-low-sun --
 lumulus_study(studies.scaling scaling ${tiny} --resolutions 24 --collectors 200 --photons 1000)
 lumulus_study(studies.bias_table bias_table ${tiny} --scenes smoke --spp 2 --fewer 1000)
 lumulus_study(studies.contact_sheet contact_sheet ${tiny} --scenes cirrus --spp 2 -o ${CMAKE_BINARY_DIR}/contact-sheet.png)
+lumulus_study(studies.hostile hostile --only "no HTTP" --seconds 1)
 add_test(NAME studies.tools COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_LIST_DIR}/studies_test.py $<TARGET_FILE:lumulus>)
 set_tests_properties(studies.tools PROPERTIES TIMEOUT 300)
 
