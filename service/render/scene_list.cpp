@@ -25,7 +25,8 @@ std::vector<std::string> sceneNames(const fs::path& folder) {
         const fs::path& file = entry->path();
         const std::string name = file.filename().string();
         const bool nameable = !name.starts_with('.') && name.size() <= longestName && oneLine(name) == name;
-        if (nameable && file.extension() == ".toml" && entry->is_regular_file(unreadable) && liesIn(file, folder))
+        const bool inside = !entry->is_symlink(unreadable) || liesIn(file, folder);
+        if (nameable && file.extension() == ".toml" && entry->is_regular_file(unreadable) && inside)
             names.push_back(name);
     }
     std::ranges::sort(names);

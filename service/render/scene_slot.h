@@ -40,7 +40,7 @@ class SceneSlot {
     /// `abandoned` is called between the steps; what it throws ends the load. `begins` is told which step begins. Both
     /// may be empty. Errors: InputError, Error, TooSlow.
     SceneSlot(std::string slotKey, const scene::Scene& scene, const RenderConfig& config,
-              const std::function<void()>& abandoned, const std::function<void(std::string_view)>& begins);
+              const std::function<void()>& abandoned, const std::function<void(std::string_view)>& begins = {});
 
     /// The scene of another slot with light of its own for a client: as the scene has it, and no photons yet. Density,
     /// device and programs are shared, so that nothing is loaded and one thread has to use both. Errors: Error.

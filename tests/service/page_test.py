@@ -315,7 +315,7 @@ class First(unittest.TestCase):
         # within 1 s (docs/service.md) on an idle machine; much more may pass where others work too
         milliseconds = browser.run("return Number(document.body.dataset.firstPicture)")
         print(f"first picture after {milliseconds} ms")
-        self.assertTrue(0 < milliseconds < 20000)
+        self.assertTrue(0 < milliseconds < 60000)
 
 
 class Death(unittest.TestCase):
