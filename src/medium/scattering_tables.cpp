@@ -11,6 +11,7 @@
 #include "medium/inverse_cdf.h"
 #include "medium/phase_function.h"
 #include "medium/single_scattering.h"
+#include "medium/sun_axis.h"
 #include "medium/sun_disc.h"
 #include "shared/phase_table.h"
 
@@ -65,6 +66,11 @@ ScatteringTables makeScatteringTables(const scene::Phase& phase, double cutRadia
     }
     tables.angleScale = static_cast<float>(function.lobeWidth());
     tables.phaseTable = makePhaseTable(function, static_cast<double>(tables.angleScale), discRadius);
+    if (hasBackwardPeak(function)) {
+        scene::Phase mirrored = phase;
+        mirrored.g = -phase.g;  // only models with a g have such a peak
+        tables.axisTable = makeAxisTable(PhaseFunction(mirrored), static_cast<double>(tables.angleScale));
+    }
     if (cutRadians > 0.0) {
         addSingleScattering(tables, function, cutRadians, albedo, discRadius);
     }

@@ -48,7 +48,7 @@ void recordField(gpu::Commands& commands, const cloud::Instance& instance, light
         light.cells->recordCounts(commands, photons.fluences(), estimates(light, instance.medium, bands, counted));
         light.counted = all;
     }
-    seen.field->record(commands, *light.cells, eye, photons.radiance());
+    seen.field->record(commands, *light.cells, eye, photons.radiance(), photons.colours());
     seen.eye = all ? std::optional(eye) : std::nullopt;
     seen.version = light.version;
 }

@@ -194,4 +194,25 @@ World makeWorld(gpu::Context& context, const scene::Scene& scene, const WorldOpt
     return Maker(context, scene, options, report).make();
 }
 
+bool traceAll(World& world, const CutOff& cutOff) {
+    const auto dropAll = [&world] {
+        for (light::InstanceLight& light : world.light)
+            if (light.photons) light.photons->drop();
+        return false;
+    };
+    try {
+        for (light::InstanceLight& light : world.light)
+            if (light.photons && !light.photons->tryTrace(light.sun, world.lights.environment, cutOff))
+                return dropAll();
+    } catch (...) {
+        dropAll();
+        throw;
+    }
+    for (light::InstanceLight& light : world.light) {
+        if (light.photons) light.photons->keep();
+        light.changed();
+    }
+    return true;
+}
+
 }  // namespace lumulus

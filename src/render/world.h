@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/cut_off.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "cloud/instance.h"
@@ -45,5 +46,9 @@ struct WorldOptions {
 /// Loads and prepares the clouds of a scene. Errors: InputError for what is wrong with the scene, Error where
 /// interrupted or out of memory.
 World makeWorld(gpu::Context& context, const scene::Scene& scene, const WorldOptions& options, WorldReport& report);
+
+/// Traces a generation of photons in every cloud. Returns false where `cutOff` ended one of them: none of them counts
+/// then.
+bool traceAll(World& world, const CutOff& cutOff);
 
 }  // namespace lumulus

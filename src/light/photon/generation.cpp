@@ -8,6 +8,7 @@
 #include "gpu/transfer.h"
 #include "light/photon/map_limits.h"
 #include "light/photon/trace_program.h"
+#include "shared/collision_estimator.h"
 #include "shared/rng.h"
 
 namespace lumulus::photon {
@@ -33,7 +34,8 @@ constexpr std::uint32_t coreInvocations = 512, gpuInvocations = 65536;
 constexpr unsigned leastCores = 2, mostCores = 16;
 /// Rows of workgroups that share the records of the invocations.
 constexpr std::uint32_t sortRows = 16;
-constexpr std::uint32_t stepLimit = 1U << 15U;
+/// Steps of an invocation in one round: a round ends within tenths of a second, so that work can end between two.
+constexpr std::uint32_t stepLimit = 1U << 13U;
 /// A photon that collides more often is counted as lost. Optical depth 1e6 with albedo 1 stays below it.
 constexpr std::uint32_t collisionLimit = 1U << 24U;
 
@@ -131,6 +133,7 @@ shared::TraceParams GenerationTracer::traceParams(const Emission& emission, cons
     p.estimatorBase = collectors_ * 3U * static_cast<std::uint32_t>(options_.bands * options_.bands);
     p.estimatorEdge = options_.estimates.edge;
     p.estimatorCells = options_.estimates.cells;
+    p.axisBase = p.estimatorBase + shared::estimatorCounts(options_.estimates.cells);
     return p;
 }
 
@@ -185,12 +188,14 @@ void GenerationTracer::round(const gpu::Buffer& coefficients) {
     commands_.wait();
 }
 
-void GenerationTracer::trace(const Emission& emission, const scene::Sun& sun, int unitExponent, std::uint32_t number,
+bool GenerationTracer::trace(const Emission& emission, const scene::Sun& sun, int unitExponent, std::uint32_t number,
                              const gpu::Buffer& coefficients, Counters& counters, std::uint64_t& unsettledRecords,
-                             PassLog& log) {
+                             PassLog& log, const CutOff& cutOff) {
     params_.mapped<shared::TraceParams>()[0] = traceParams(emission, sun, unitExponent, number);
     resetStates(states_.mapped<shared::TraceState>().subspan(0, invocations_));
     const shared::TraceCounters& c = counters_.mapped<shared::TraceCounters>()[0];
+    std::uint64_t ended = 0;
+    counters.emitted += options_.photonsPerGeneration;
     do {
         options_.check();
         round(coefficients);
@@ -203,8 +208,13 @@ void GenerationTracer::trace(const Emission& emission, const scene::Sun& sun, in
         counters.records += c.records;
         unsettledRecords += c.records;
         requireCountable(unsettledRecords);
+        ended += c.absorbed + c.escaped + c.lost;
+        if (c.pending == 0 || !cutOff.isDue()) continue;
+        if (!cutOff.keepUnfinished) return false;
+        counters.lost += options_.photonsPerGeneration - ended;
+        break;
     } while (c.pending > 0);
-    counters.emitted += options_.photonsPerGeneration;
+    return true;
 }
 
 }  // namespace lumulus::photon
