@@ -1,6 +1,6 @@
 // What a photon leaves at a scattering event: a record for the collector of that place, and estimates in the cells around it.
 // It brings its bindings along: trace.comp walks, this file alone writes light. The includer declares AXIS: whether the sun's
-// light near its axis is counted in rings.
+// light is counted in rings about its axis too.
 #ifndef LUMULUS_LIB_STORE
 #define LUMULUS_LIB_STORE
 
@@ -16,26 +16,23 @@ layout(binding = 6, scalar) writeonly buffer Records { PhotonRecord records[]; }
 layout(binding = 8, scalar) buffer CollectorCounts { uint collectorCounts[]; };  // records of each collector
 layout(binding = 10, scalar) buffer CollisionEstimates { int64_t estimates[]; };
 
-/// `amount` in counts of the coefficients, luminance; `directed` of it, with its direction.
-void addEstimate(TraceParams params, vec3 voxel, vec3 direction, float amount, float directed) {
+/// `amount` in counts of the coefficients, luminance.
+void addEstimate(TraceParams params, vec3 voxel, vec3 direction, float amount) {
     const ivec3 cell = min(ivec3(voxel) / params.estimatorEdge, params.estimatorCells - 1);
     const uint cube = params.estimatorBase + cubePlace(params.estimatorCells, cell);
     atomicAdd(estimates[cube + placeInCube(cell)], int64_t(roundEven(amount)));
     for (int axis = 0; axis < 3; ++axis)
-        atomicAdd(estimates[cube + uint(CUBE_CELLS + axis)], int64_t(roundEven(directed * direction[axis])));
+        atomicAdd(estimates[cube + uint(CUBE_CELLS + axis)], int64_t(roundEven(amount * direction[axis])));
 }
 
-/// Counts what belongs to the rings about the sun's axis; returns its share.
-float addToAxis(TraceParams params, uint collector, vec3 direction, vec3 power) {
+/// Counts the sun's light in the rings about its axis.
+void addToAxis(TraceParams params, uint collector, vec3 direction, vec3 power) {
     const ScatterAngle angle = angleBetween(params.sunDirection, direction);
-    const float chord = sqrt(2.0 * min(angle.oneMinusCos, angle.onePlusCos));
-    const float share = axisShare(chord);
-    if (share <= 0.0) return 0.0;
-    const int ring = axisRing(chord) + (angle.oneMinusCos < angle.onePlusCos ? 0 : AXIS_RINGS);
+    const bool front = angle.oneMinusCos < angle.onePlusCos;
+    const int ring = axisRing(sqrt(2.0 * (front ? angle.oneMinusCos : angle.onePlusCos))) + (front ? 0 : AXIS_RINGS);
     const uint place = params.axisBase + collector * AXIS_COUNTS + 3u * uint(ring);
     for (int channel = 0; channel < 3; ++channel)
-        atomicAdd(estimates[place + uint(channel)], int64_t(roundEven(COEFFICIENT_SCALE * share * power[channel])));
-    return share;
+        atomicAdd(estimates[place + uint(channel)], int64_t(roundEven(COEFFICIENT_SCALE * power[channel])));
 }
 
 /// Light of this power [record units] that travels in a direction, at a place, as record number `place`. False: no
@@ -43,11 +40,9 @@ float addToAxis(TraceParams params, uint collector, vec3 direction, vec3 power) 
 bool store(TraceParams params, vec3 voxel, vec3 direction, vec3 power, bool ofSun, uint place) {
     const uint collector = texelFetch(collectorIndex, ivec3(min(voxel, params.size - 0.5)), 0).r;
     if (collector >= params.collectors) return false;
-    vec3 ofBands = power;
-    if (AXIS && ofSun) ofBands *= 1.0 - addToAxis(params, collector, direction, power);
-    records[place] = PhotonRecord(collector, packDirection(direction), packPower(ofBands));
-    if (params.estimatorEdge > 0)
-        addEstimate(params, voxel, direction, COEFFICIENT_SCALE * luminance(power), COEFFICIENT_SCALE * luminance(ofBands));
+    records[place] = PhotonRecord(collector, packDirection(direction), packPower(power));
+    if (params.estimatorEdge > 0) addEstimate(params, voxel, direction, COEFFICIENT_SCALE * luminance(power));
+    if (AXIS && ofSun) addToAxis(params, collector, direction, power);
     atomicAdd(collectorCounts[collector], 1u);
     return true;
 }

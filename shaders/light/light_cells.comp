@@ -46,7 +46,6 @@ void main() {
         // The gain has the colour of all light there: the collectors' light towards the eye nearly cancels where few photons
         // met, and its colour is then that of one photon.
         light.rgb = counted.w * light.rgb + (gain / fluence) * colour;
-        if (luminance(light.rgb) <= 0.0) light.rgb = vec3(0.0);
     }
     imageStore(cells, cell + 1, light);
 }

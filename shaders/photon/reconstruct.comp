@@ -11,7 +11,7 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const int BANDS = 5;
-layout(constant_id = 1) const bool AXIS = false;  // the sun's light near its axis is counted in rings
+layout(constant_id = 1) const bool AXIS = false;  // the sun's light is counted in rings about its axis too
 
 layout(binding = 0, scalar) readonly buffer Sum { int64_t sum[]; };
 layout(binding = 1, scalar) readonly buffer Moments { float moments[]; };      // of the phase function, by band
@@ -19,7 +19,7 @@ layout(binding = 2, scalar) readonly buffer Collectors { vec4 collectors[]; };  
 layout(binding = 3) uniform writeonly image2D fluences;  // of luminance, per unit of the leaf's ∫ σt' dV: flux, fluence
 layout(binding = 4) uniform writeonly image2D radiance;
 layout(binding = 5) uniform writeonly image2D colours;  // RGB fluence, per unit of the leaf's ∫ σt' dV
-layout(binding = 6, scalar) readonly buffer AxisTable { float axisTable[]; };  // ln of what a ring scatters, by ring and angle
+layout(binding = 6, scalar) readonly buffer AxisTable { float axisTable[]; };  // what a ring scatters, by ring and angle
 layout(push_constant, scalar) uniform Push { ReconstructPush push; };
 
 /// Light of a ring, in counts.
@@ -28,15 +28,13 @@ vec3 ringLight(uint collector, int ring) {
     return vec3(sum[place], sum[place + 1u], sum[place + 2u]);
 }
 
-/// What the rings about one end of the axis scatter towards a direction at that angle to it; adds their light to `all`.
-vec3 scatteredByRings(uint collector, int first, ScatterAngle angle, inout vec3 all) {
+/// What the rings about one end of the axis scatter towards a direction at that angle to it, by the bands above.
+vec3 scatteredByRings(uint collector, int first, ScatterAngle angle) {
     const TableCell cell = tableCell(angleToAxis(angle, push.angleScale), singleScatterAngleCount);
     vec3 scattered = vec3(0.0);
     for (int ring = 0; ring < AXIS_RINGS; ++ring) {
-        const vec3 light = ringLight(collector, first + ring);
         const int entry = ring * singleScatterAngleCount + cell.base;
-        scattered += light * exp(mix(axisTable[entry], axisTable[entry + 1], cell.fraction));
-        all += light;
+        scattered += ringLight(collector, first + ring) * mix(axisTable[entry], axisTable[entry + 1], cell.fraction);
     }
     return scattered;
 }
@@ -58,13 +56,11 @@ void main() {
             const vec3 coefficient = vec3(sum[base + uint(i)], sum[base + uint(COUNT + i)], sum[base + uint(2 * COUNT + i)]);
             total += (moments[l] * y[i]) * coefficient;
         }
-    vec3 mean = vec3(sum[base], sum[base + uint(COUNT)], sum[base + uint(2 * COUNT)]);
     if (AXIS) {
-        vec3 inRings = vec3(0.0);
-        total += scatteredByRings(collector, 0, angleBetween(push.sunDirection, direction), inRings);
-        total += scatteredByRings(collector, AXIS_RINGS, angleBetween(-push.sunDirection, direction), inRings);
-        mean += y[0] * inRings;
+        total += scatteredByRings(collector, 0, angleBetween(push.sunDirection, direction));
+        total += scatteredByRings(collector, AXIS_RINGS, angleBetween(-push.sunDirection, direction));
     }
+    const vec3 mean = vec3(sum[base], sum[base + uint(COUNT)], sum[base + uint(2 * COUNT)]);
     const float unit = push.scale / place.w;
     vec3 flux = vec3(0.0);
     if (BANDS > 1) {

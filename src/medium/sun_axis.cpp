@@ -38,17 +38,26 @@ bool hasBackwardPeak(const PhaseFunction& phase) {
     return phase.evaluateAngle(pi) > peaked * phase.evaluateAngle(pi - nearBackward);
 }
 
-std::vector<float> makeAxisTable(const PhaseFunction& mirrored, double angleScale) {
+std::vector<float> makeAxisTable(const PhaseFunction& mirrored, double angleScale, int bands) {
     constexpr auto angles = static_cast<std::size_t>(shared::singleScatterAngleCount);
-    std::vector<float> table(static_cast<std::size_t>(shared::AXIS_RINGS) * angles);
+    constexpr auto rings = static_cast<std::size_t>(shared::AXIS_RINGS);
+    // by the mirrored angle the moments are those of the mirrored p, and the ring's own
+    const std::vector<double> moments = mirrored.moments(bands);
+    std::vector<std::vector<double>> discs;
+    for (int ring = 0; ring <= shared::AXIS_RINGS; ++ring) discs.push_back(discMoments(radiusOf(ring), bands));
+    std::vector<float> table(rings * angles);
     tbb::parallel_for(std::size_t{0}, angles, [&](std::size_t i) {
         const double theta = pi - axisToAngle(static_cast<double>(i) / static_cast<double>(angles - 1), angleScale);
         double within = 0.0, area = 0.0;  // of the disc inside the ring
-        for (int ring = 0; ring < shared::AXIS_RINGS; ++ring) {
-            const double radius = radiusOf(ring + 1), disc = solidAngle(radius);
-            const double whole = disc * averageOverDisc(mirrored, theta, radius);
-            const double mean = (whole - within) / (disc - area);
-            table[static_cast<std::size_t>(ring) * angles + i] = static_cast<float>(std::log(std::max(mean, 1e-12)));
+        for (std::size_t ring = 0; ring < rings; ++ring) {
+            const double radius = radiusOf(static_cast<int>(ring) + 1), disc = solidAngle(radius);
+            double whole = averageOverDisc(mirrored, theta, radius);
+            for (int l = 0; l < bands; ++l)
+                whole -= (2.0 * l + 1.0) / (4.0 * pi) * moments[static_cast<std::size_t>(l)] *
+                         discs[ring + 1][static_cast<std::size_t>(l)] *
+                         std::legendre(static_cast<unsigned>(l), std::cos(theta));
+            whole *= disc;
+            table[ring * angles + i] = static_cast<float>((whole - within) / (disc - area));
             within = whole;
             area = disc;
         }

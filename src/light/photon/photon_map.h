@@ -95,8 +95,7 @@ class PhotonMap {
 
     /// Radiance of every collector towards the eye, and its light of all directions [W·m⁻²]: recorded into `commands`.
     void reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, const Light& light);
-    /// At collectorTexel(): RGB and 1; flux and fluence of the luminance and fluence of RGB, whatever the eye. Where the
-    /// phase function has a backward peak, the flux is without the light near the sun's axis.
+    /// At collectorTexel(): RGB and 1; flux and fluence of the luminance, and fluence of RGB, whatever the eye.
     const gpu::Image& radiance() const;
     const gpu::Image& fluences() const;
     const gpu::Image& colours() const;
