@@ -85,9 +85,9 @@ void main() {
     const Pixel corners[4] = Pixel[4](pointAt(block), pointAt(block + ivec2(1, 0)), pointAt(block + ivec2(0, 1)),
                                       pointAt(block + 1));
     if (REFINES) storeRefined(2 * local, corners[0]);
-    if (!isSmooth(block, corners) || meetsSun(block * spacing, spacing)) {
+    if (!isSmooth(block, corners)) {
         list(block);
-        if (!REFINES) storePixel(block * spacing, withDisc(corners[0], block * spacing));
+        if (!REFINES) storePixel(block * spacing, corners[0]);
         return;
     }
     for (int i = 0; i < spacing * spacing; ++i) {

@@ -62,12 +62,12 @@ void main() {
     if (any(lessThanEqual(place, ivec2(-2))) || any(greaterThanEqual(place, push.count))) return;
     const Pixel corners[4] = Pixel[4](pointAt(cell), pointAt(cell + ivec2(1, 0)), pointAt(cell + ivec2(0, 1)),
                                       pointAt(cell + 1));
-    const bool drawn = !isSmooth(cell) || meetsSun(2 * cell, 2);
+    const bool drawn = !isSmooth(cell);
     if (drawn) list(cell);
     for (int i = 0; i < (drawn ? 1 : 4); ++i) {
         const ivec2 part = ivec2(i & 1, i >> 1);
         if (any(lessThan(place + part, ivec2(0))) || any(greaterThanEqual(place + part, push.count))) continue;
-        const Pixel pixel = drawn ? withDisc(corners[0], 2 * cell) : blend(corners, 0.5 * vec2(part));
+        const Pixel pixel = drawn ? corners[0] : blend(corners, 0.5 * vec2(part));
         const int index = (place.y + part.y) * push.count.x + place.x + part.x;
         STORE_PIXEL(pixels, index, pixel);
     }

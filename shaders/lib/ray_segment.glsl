@@ -99,9 +99,6 @@ void addRay(inout PixelSum sum, RayLight ray, vec3 direction) {
         seen = exp(-onlyInstance.extinctionScale * ray.depth);
     sum.pixel.cloud += ray.cloud;
     sum.pixel.radiance += ray.cloud + environmentRadiance(params.environment, direction) * seen;
-    // what is drawn in the sun's disc is not spread over its neighbours
-    if (push.what != DRAW_SPARSE && push.what != DRAW_REFINED)
-        sum.pixel.radiance += discSeen(params.light, direction) * transmittance;
     sum.pixel.transmittance += transmittance;
     sum.pixel.alpha += 1.0 - (seen.x + seen.y + seen.z) / 3.0;
     sum.pixel.depth += ray.distance;

@@ -4,11 +4,8 @@
 #define LUMULUS_LIB_LATTICE
 
 #include "shared/draw.h"
-#include "shared/phase.h"
-#include "lib/disc.glsl"
 #include "lib/pixel.glsl"
 #include "lib/square.glsl"
-#include "lib/view.glsl"
 
 /// What is compared: the cloud's light; how much is seen through it, and of the sky; distance and front [m].
 struct Probe {
@@ -42,21 +39,6 @@ bool isWithin(Probe bent, vec3 brightest) {
            all(lessThanEqual(bent.distances, vec2(params.sampling.depthTolerance)));
 }
 
-/// Whether the sun's disc may shine into a square of pixels of that edge: by chords, which are precise also for small
-/// angles.
-bool meetsSun(ivec2 corner, int edge) {
-    if (params.light.sunCone < 0.0) return false;
-    vec3 origin, middle;
-    viewRay(params.view, 2 * corner + edge, 2, origin, middle);
-    float widest = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        vec3 direction;
-        viewRay(params.view, corner + edge * ivec2(i & 1, i >> 1), 1, origin, direction);
-        widest = max(widest, distance(direction, middle));
-    }
-    return distance(middle, -params.light.sunTravel) <= sqrt(2.0 * params.light.sunCone) + 1.1 * widest;
-}
-
 Pixel blend(Pixel a, Pixel b, float share) {
     return Pixel(mix(a.cloud, b.cloud, share), mix(a.transmittance, b.transmittance, share),
                  mix(a.alpha, b.alpha, share), mix(a.depth, b.depth, share), mix(a.front, b.front, share),
@@ -68,14 +50,6 @@ void list(ivec2 square) {
     const uint place = atomicAdd(listCount, 1u);
     if (place % uint(LISTED_GROUP) == 0u) atomicAdd(listGroups.x, 1u);
     listed[place] = packedSquare(square);
-}
-
-/// A sampling point as a pixel of the picture: points do not have the sun's disc, which would spread over their neighbours.
-Pixel withDisc(Pixel point, ivec2 pixel) {
-    vec3 origin, direction;
-    viewRay(params.view, pixel, 1, origin, direction);
-    point.radiance += discSeen(params.light, direction) * point.transmittance;
-    return point;
 }
 
 /// Between four corners, row by row.

@@ -7,7 +7,7 @@
 
 #include "shared/draw.h"
 #include "shared/phase_table.h"
-#include "lib/disc.glsl"
+#include "shared/phase.h"
 
 /// exp of a multiple of extinctionScale; one exponential where the albedo is grey.
 vec3 expScaled(vec3 x) { return GREY ? vec3(exp(x.x)) : exp(x); }

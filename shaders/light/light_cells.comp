@@ -16,6 +16,7 @@ layout(binding = 2, rgba32f) uniform readonly image2D radiance;
 layout(binding = 3, rgba32f) uniform readonly image3D counts;
 layout(binding = 4) uniform writeonly image3D cells;  // with a ring of empty ones
 layout(binding = 5, scalar) readonly buffer LitCells { uint litCells[]; };
+layout(binding = 6, rgba32f) uniform readonly image2D colours;  // RGB fluence of the collectors
 layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
 void main() {
@@ -23,6 +24,7 @@ void main() {
     if (entry >= push.occupied) return;
     const ivec3 cell = cellNumbered(litCells[entry], push.grid);
     vec4 light = vec4(0.0);
+    vec3 colour = vec3(0.0);  // of all light in the cell, wherever it goes
     for (int z = 0; z < EDGE; ++z)
         for (int y = 0; y < EDGE; ++y)
             for (int x = 0; x < EDGE; ++x) {
@@ -31,16 +33,19 @@ void main() {
                 if (mass > 0.0) {
                     const uint collector = texelFetch(collectorIndex, voxel, 0).r;
                     light += mass * imageLoad(radiance, collectorTexel(collector));
+                    colour += mass * imageLoad(colours, collectorTexel(collector)).rgb;
                 }
             }
     // Cells count alike, however thin: weighted by mass, what is bright and thin would take the colour of what is behind.
     if (light.a > 0.0) light /= light.a;
-    const float bright = luminance(light.rgb);
-    if (bright > 0.0) {
+    const float fluence = luminance(colour);
+    if (fluence > 0.0) {
         const vec4 counted = imageLoad(counts, cell);
         const vec3 away = push.voxelToWorld * (push.eye - (vec3(cell) + 0.5) * float(EDGE));
         const float gain = dot(counted.xyz, away) * inversesqrt(max(dot(away, away), 1e-30));
-        light.rgb *= max(counted.w + gain / bright, 0.0);
+        // The gain has the colour of all light there: the collectors' light towards the eye nearly cancels where few photons
+        // met, and its colour is then that of one photon.
+        light.rgb = counted.w * light.rgb + (gain / fluence) * colour;
     }
     imageStore(cells, cell + 1, light);
 }

@@ -2,20 +2,42 @@
 #extension GL_GOOGLE_include_directive : require
 // In-scattered radiance of each collector towards the eye (Elek 2011, 5.8): the convolution of the incident light with
 // the phase function is a factor for each band (Funk–Hecke).
+#include "shared/phase_table.h"
 #include "shared/photon.h"
 #include "shared/sh.h"
+#include "shared/sun_axis.h"
 #include "lib/linear.glsl"
 #include "lib/luminance.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const int BANDS = 5;
+layout(constant_id = 1) const bool AXIS = false;  // the sun's light is counted in rings about its axis too
 
 layout(binding = 0, scalar) readonly buffer Sum { int64_t sum[]; };
 layout(binding = 1, scalar) readonly buffer Moments { float moments[]; };      // of the phase function, by band
 layout(binding = 2, scalar) readonly buffer Collectors { vec4 collectors[]; };  // centre, mass [m²]
 layout(binding = 3) uniform writeonly image2D fluences;  // of luminance, per unit of the leaf's ∫ σt' dV: flux, fluence
 layout(binding = 4) uniform writeonly image2D radiance;
+layout(binding = 5) uniform writeonly image2D colours;  // RGB fluence, per unit of the leaf's ∫ σt' dV
+layout(binding = 6, scalar) readonly buffer AxisTable { float axisTable[]; };  // what a ring scatters, by ring and angle
 layout(push_constant, scalar) uniform Push { ReconstructPush push; };
+
+/// Light of a ring, in counts.
+vec3 ringLight(uint collector, int ring) {
+    const uint place = push.axisBase + collector * AXIS_COUNTS + 3u * uint(ring);
+    return vec3(sum[place], sum[place + 1u], sum[place + 2u]);
+}
+
+/// What the rings about one end of the axis scatter towards a direction at that angle to it, by the bands above.
+vec3 scatteredByRings(uint collector, int first, ScatterAngle angle) {
+    const TableCell cell = tableCell(angleToAxis(angle, push.angleScale), singleScatterAngleCount);
+    vec3 scattered = vec3(0.0);
+    for (int ring = 0; ring < AXIS_RINGS; ++ring) {
+        const int entry = ring * singleScatterAngleCount + cell.base;
+        scattered += ringLight(collector, first + ring) * mix(axisTable[entry], axisTable[entry + 1], cell.fraction);
+    }
+    return scattered;
+}
 
 void main() {
     const uint collector = linearInvocation(64u);
@@ -34,6 +56,10 @@ void main() {
             const vec3 coefficient = vec3(sum[base + uint(i)], sum[base + uint(COUNT + i)], sum[base + uint(2 * COUNT + i)]);
             total += (moments[l] * y[i]) * coefficient;
         }
+    if (AXIS) {
+        total += scatteredByRings(collector, 0, angleBetween(push.sunDirection, direction));
+        total += scatteredByRings(collector, AXIS_RINGS, angleBetween(-push.sunDirection, direction));
+    }
     const vec3 mean = vec3(sum[base], sum[base + uint(COUNT)], sum[base + uint(2 * COUNT)]);
     const float unit = push.scale / place.w;
     vec3 flux = vec3(0.0);
@@ -48,4 +74,5 @@ void main() {
     const ivec2 texel = collectorTexel(collector);
     imageStore(fluences, texel, vec4(unit / y[0] * flux, unit / y[0] * luminance(mean)));
     imageStore(radiance, texel, vec4(unit * total, 1.0));
+    imageStore(colours, texel, vec4(unit / y[0] * mean, 1.0));
 }

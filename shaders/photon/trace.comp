@@ -9,7 +9,6 @@
 #include "shared/phase_table.h"
 #include "lib/density.glsl"
 #include "lib/emission.glsl"
-#include "lib/store.glsl"
 #include "lib/traversal.glsl"
 
 layout(local_size_x = 64) in;
@@ -17,6 +16,8 @@ layout(constant_id = 0) const bool ANALYTIC_PHASE = true;
 layout(constant_id = 1) const bool FORWARD_CUT = false;  // the forward peak is cut: some collisions go straight on
 layout(constant_id = 2) const bool ABSORBS = false;     // an albedo below 1
 layout(constant_id = 3) const bool PERIODIC = false;    // a plane-parallel layer across y
+layout(constant_id = 4) const bool AXIS = false;        // the phase function has a backward peak
+#include "lib/store.glsl"
 
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 2, scalar) readonly buffer Params { TraceParams storedParams; };
@@ -68,7 +69,7 @@ bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint c
     const bool ofSun = state.photon < params.sunPhotons;
     if (state.scatterings > 0u || !ofSun) {
         const vec3 power = (ofSun ? params.sunPower : params.skyPower) * state.weight;
-        if (store(params, voxel, state.direction, power, count * params.invocations + lane)) ++count;
+        if (store(params, voxel, state.direction, power, ofSun, count * params.invocations + lane)) ++count;
     }
     ++state.scatterings;
     return !ABSORBS || survives(state, params.albedo, u.y);

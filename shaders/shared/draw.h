@@ -26,11 +26,9 @@ struct ViewParams {
     int projection;
 };
 
-/// The sun as the eye sees it.
+/// The sun's light. Its disc is drawn after all else (frame/sun_cover.h).
 struct LightParams {
     vec3 sunTravel;  // unit vector along which sunlight travels
-    vec3 sunDisc;    // radiance of the visible disc
-    float sunCone;   // 1 − cos of its angular radius
 };
 
 /// Points at every `spacing`th pixel of every `spacing`th row of the whole picture; those that a tile needs.
@@ -148,9 +146,9 @@ struct LightCountsPush {
 #ifdef __cplusplus
 // Scalar layout, as SPIR-V has it; tests/unit/shared_layout_test.cpp compares every member.
 static_assert(sizeof(ViewParams) == 56 && offsetof(ViewParams, projection) == 52);
-static_assert(sizeof(LightParams) == 28 && offsetof(LightParams, sunCone) == 24);
+static_assert(sizeof(LightParams) == 12);
 static_assert(sizeof(SamplingGrid) == 28 && offsetof(SamplingGrid, depthTolerance) == 24);
-static_assert(sizeof(DrawParams) == 172 && offsetof(DrawParams, samples) == 168);
+static_assert(sizeof(DrawParams) == 156 && offsetof(DrawParams, samples) == 152);
 static_assert(sizeof(DrawPush) == 20 && offsetof(DrawPush, count) == 12);
 static_assert(sizeof(InterpolatePush) == 32 && offsetof(InterpolatePush, blocks) == 24);
 static_assert(sizeof(Pixel) == 16 * PIXEL_TEXELS && offsetof(Pixel, unused) == 40);

@@ -6,10 +6,10 @@
 
 SHARED_BEGIN
 
-/// A pixel beside the cloud that sees the sun's disc.
+/// A pixel that sees the sun's disc.
 struct SunPixel {
     ivec2 pixel;
-    vec3 radiance;  // with the sky
+    vec3 radiance;  // of the disc alone, before the cloud
 };
 
 /// What is seen where no cloud is, in the whole picture but for a rectangle.

@@ -51,6 +51,7 @@ struct TraceParams {
     uint estimatorBase;   // where the cells follow the collectors' coefficients
     int estimatorEdge;    // of a cell, voxels; 0: none
     ivec3 estimatorCells;
+    uint axisBase;  // where the rings about the sun's axis follow the estimates
 };
 
 /// A photon between two dispatches.
@@ -107,17 +108,20 @@ struct ReconstructPush {
     float scale;  // ring units → W·m⁻², over the generations in the ring
     vec3 eye;     // voxel coordinates; a collector's direction to it is found in metres
     mat3 voxelToWorld;
+    vec3 sunDirection;  // of travel
+    uint axisBase;      // where the rings about the sun's axis begin
+    float angleScale;   // of the axis of their table
 };
 
 #ifdef __cplusplus
 // Scalar layout, as SPIR-V has it; tests/unit/shared_layout_test.cpp compares every member.
-static_assert(sizeof(TraceParams) == 260 && offsetof(TraceParams, estimatorCells) == 248);
+static_assert(sizeof(TraceParams) == 264 && offsetof(TraceParams, axisBase) == 260);
 static_assert(sizeof(TraceState) == 72 && offsetof(TraceState, alive) == 68);
 static_assert(sizeof(PhotonRecord) == 16 && offsetof(PhotonRecord, power) == 8);
 static_assert(sizeof(TraceCounters) == 80 && offsetof(TraceCounters, unused) == 76);
 static_assert(sizeof(GatherPush) == 12 && offsetof(GatherPush, recordCapacity) == 8);
 static_assert(sizeof(AccumulatePush) == 12 && offsetof(AccumulatePush, keepSlots) == 8);
-static_assert(sizeof(ReconstructPush) == 56 && offsetof(ReconstructPush, voxelToWorld) == 20);
+static_assert(sizeof(ReconstructPush) == 76 && offsetof(ReconstructPush, angleScale) == 72);
 #endif
 
 SHARED_END

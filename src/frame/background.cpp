@@ -10,35 +10,9 @@
 #include <string>
 #include <utility>
 
+#include "frame/sun_cover.h"
+
 namespace lumulus::frame {
-
-namespace {
-
-bool seesSun(const Camera& camera, double px, double py, const glm::dvec3& directionTo, double radius) {
-    const glm::dvec3 direction = camera.ray(px, py).direction;
-    return 2.0 * std::atan2(glm::length(direction - directionTo), glm::length(direction + directionTo)) <= radius;
-}
-
-/// Part of a pixel's rays, a grid of `rays` along each side, that meet the disc.
-double sunInPixel(const Camera& camera, int x, int y, int rays, const glm::dvec3& directionTo, double radius) {
-    int met = 0;
-    for (int i = 0; i < rays * rays; ++i)
-        met += seesSun(camera, x + (i % rays + 0.5) / rays, y + (i / rays + 0.5) / rays, directionTo, radius);
-    return static_cast<double>(met) / (rays * rays);
-}
-
-/// Whether a disc may be seen at all: by the angles between the middle of a perspective view and its corners.
-bool maySeeSun(const Camera& camera, const glm::dvec3& directionTo, double radius) {
-    if (camera.projection != scene::Projection::perspective) return true;
-    const glm::dvec3 middle = camera.ray(0.5 * camera.width, 0.5 * camera.height).direction;
-    double least = 1.0;
-    for (int i = 0; i < 4; ++i)
-        least = std::min(least,
-                         glm::dot(middle, camera.ray(i & 1 ? camera.width : 0, i & 2 ? camera.height : 0).direction));
-    return std::acos(std::clamp(glm::dot(middle, directionTo), -1.0, 1.0)) <= std::acos(least) + radius;
-}
-
-}  // namespace
 
 LayeredImage emptyFrame(const Tile& tile, const glm::dvec3& radiance) {
     constexpr float none = 0.0F, all = 1.0F;
@@ -67,40 +41,24 @@ LayeredImage emptyFrame(const Tile& tile, const glm::dvec3& radiance) {
     return image;
 }
 
-std::vector<shared::SunPixel> sunPixels(const Camera& camera, const Tile& tile, const scene::Sun& sun,
-                                        const sky::Environment& environment, int rays, const Tile& without) {
+std::vector<shared::SunPixel> sunPixels(const Camera& camera, const Tile& tile, const scene::Sun& sun) {
     const double radius = 0.5 * sun.angularDiameter * std::numbers::pi / 180.0;
     const double disc = std::numbers::pi * std::pow(std::sin(radius), 2);
-    if (!(disc > 0.0) || !maySeeSun(camera, sun.directionTo, radius)) return {};
-    std::vector<std::vector<shared::SunPixel>> rows(static_cast<std::size_t>(tile.height));
-    tbb::parallel_for(tile.y, tile.y + tile.height, [&](int y) {
-        const auto find = [&](int first, int end) {
-            for (int x = first; x < end; ++x) {
-                const double share = sunInPixel(camera, x, y, rays, sun.directionTo, radius);
-                if (share > 0.0)
-                    rows[static_cast<std::size_t>(y - tile.y)].push_back(
-                        {{x, y}, glm::vec3(environment.radiance(sun.directionTo) + share * sun.irradiance / disc)});
-            }
-        };
-        const bool crosses = y >= without.y && y < without.y + without.height;
-        find(tile.x, crosses ? without.x : tile.x + tile.width);
-        if (crosses) find(without.x + without.width, tile.x + tile.width);
-    });
     std::vector<shared::SunPixel> pixels;
-    for (const auto& row : rows) pixels.insert(pixels.end(), row.begin(), row.end());
+    if (!(disc > 0.0) || sun.irradiance == glm::dvec3(0.0)) return pixels;
+    for (const CoveredPixel& covered : sunCover(camera, tile, sun.directionTo, radius))
+        pixels.push_back({covered.pixel - glm::ivec2(tile.x, tile.y), glm::vec3(covered.share * sun.irradiance / disc)});
     return pixels;
 }
 
-LayeredImage skyImage(const Camera& camera, const Tile& tile, const scene::Sun& sun,
-                      const sky::Environment& environment, int rays, const Tile& without) {
-    LayeredImage image = emptyFrame(tile, environment.uniformRadiance());
+void addSun(LayeredImage& image, const std::vector<shared::SunPixel>& pixels) {
     const std::array<std::vector<float>*, 3> colours{&image.layer("R"), &image.layer("G"), &image.layer("B")};
-    for (const shared::SunPixel& seen : sunPixels(camera, tile, sun, environment, rays, without)) {
-        const auto i = static_cast<std::size_t>(seen.pixel.y - tile.y) * static_cast<std::size_t>(tile.width) +
-                       static_cast<std::size_t>(seen.pixel.x - tile.x);
-        for (int c = 0; c < 3; ++c) (*colours[static_cast<std::size_t>(c)])[i] = seen.radiance[c];
+    const std::vector<float>& passed = image.layer("transmittance.R");
+    for (const shared::SunPixel& seen : pixels) {
+        const auto i = static_cast<std::size_t>(seen.pixel.y) * static_cast<std::size_t>(image.width) +
+                       static_cast<std::size_t>(seen.pixel.x);
+        for (int c = 0; c < 3; ++c) (*colours[static_cast<std::size_t>(c)])[i] += seen.radiance[c] * passed[i];
     }
-    return image;
 }
 
 void leaveOutBackground(LayeredImage& image) {

@@ -36,16 +36,17 @@ Frame::Frame(gpu::Context& context, const glm::ivec2& size)
       write_(context, "write_band", spirv::write_band_comp),
       read_(context, "read_band", spirv::read_band_comp) {}
 
-void Frame::recordBackground(gpu::Commands& commands, const glm::vec3& sky,
-                             const std::vector<shared::SunPixel>& sunPixels, const Tile& without) {
+void Frame::recordBackground(gpu::Commands& commands, const glm::vec3& sky, const Tile& without) const {
     commands.pass("frame background");
     commands.dispatch(background_, {{"cloud", cloud_}, {"radiance", radiance_}, {"depth", depth_}, {"front", front_}},
                       {size_, {without.x, without.y}, {without.width, without.height}, sky}, gpu::pixelGroups(size_));
-    if (sunPixels.empty()) return;
+}
+
+void Frame::recordSun(gpu::Commands& commands, const std::vector<shared::SunPixel>& sunPixels) {
     sunPixels_.emplace(context_, "sun pixels", sunPixels.size() * sizeof(shared::SunPixel), gpu::Memory::host);
     std::ranges::copy(sunPixels, sunPixels_->mapped<shared::SunPixel>().begin());
     context_.addUploaded(sunPixels_->bytes());
-    commands.barrier("frame background");
+    commands.pass("frame sun");
     commands.dispatch(sun_, {{"SunPixels", *sunPixels_}, {"radiance", radiance_}}, {static_cast<int>(sunPixels.size())},
                       gpu::linearGroups(sunPixels.size(), 64));
 }

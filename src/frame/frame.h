@@ -26,10 +26,10 @@ class Frame {
     /// Mean distance of the cloud along the ray in metres (layer depth.Z); shared::FAR_DEPTH where none is.
     const gpu::Image& depth() const { return depth_; }
 
-    /// Records what is seen without a cloud everywhere but in the rectangle `without`: a sky of that radiance, and
-    /// pixels that see the sun.
-    void recordBackground(gpu::Commands& commands, const glm::vec3& sky, const std::vector<shared::SunPixel>& sunPixels,
-                          const Tile& without);
+    /// Records what is seen without a cloud everywhere but in the rectangle `without`: a sky of that radiance.
+    void recordBackground(gpu::Commands& commands, const glm::vec3& sky, const Tile& without) const;
+    /// Records the sun's disc, as seen through the clouds, after all else; not without pixels.
+    void recordSun(gpu::Commands& commands, const std::vector<shared::SunPixel>& sunPixels);
     /// Records the copy of drawn pixels, texels in a buffer row by row, into the rectangle `place`.
     void recordBand(gpu::Commands& commands, const gpu::Buffer& pixels, const Tile& place) const;
     /// Reads a part of the picture with all its layers. Adds the times of the passes to `times`.
@@ -42,7 +42,7 @@ class Frame {
     gpu::Program<shared::BackgroundPush> background_;
     gpu::Program<shared::SunPixelsPush> sun_;
     gpu::Program<shared::BandPush> write_, read_;
-    std::optional<gpu::Buffer> sunPixels_;  ///< of the last background, until its commands are done
+    std::optional<gpu::Buffer> sunPixels_;  ///< of the last recordSun(), until its commands are done
 };
 
 }  // namespace lumulus::frame

@@ -124,7 +124,7 @@ void LightCells::recordCounts(gpu::Commands& commands, const gpu::Image& fluence
 }
 
 void LightField::record(gpu::Commands& commands, const LightCells& of, const glm::vec3& eyeVoxel,
-                        const gpu::Image& radiance) const {
+                        const gpu::Image& radiance, const gpu::Image& colours) const {
     const cloud::Asset& asset = of.asset();
     shared::LightFieldPush values = of.push();
     values.eye = eyeVoxel;
@@ -136,6 +136,7 @@ void LightField::record(gpu::Commands& commands, const LightCells& of, const glm
                       {{"density", asset.density, gpu::Sampler::nearest},
                        {"collectorIndex", asset.collectorIndex, gpu::Sampler::nearest},
                        {"radiance", radiance},
+                       {"colours", colours},
                        {"counts", of.counts_},
                        {"cells", cells_},
                        {"LitCells", of.litCells_}},

@@ -59,9 +59,9 @@ class LightField {
   public:
     LightField(gpu::Context& context, const cloud::CellGrid& grid);
 
-    /// Records what fills the field for an eye, from the collectors' radiance towards it.
-    void record(gpu::Commands& commands, const LightCells& cells, const glm::vec3& eyeVoxel,
-                const gpu::Image& radiance) const;
+    /// Records what fills the field for an eye, from the collectors' radiance towards it and their RGB fluence.
+    void record(gpu::Commands& commands, const LightCells& cells, const glm::vec3& eyeVoxel, const gpu::Image& radiance,
+                const gpu::Image& colours) const;
 
     /// (Σ L, Σ 1) of cells with density, to be divided after the look-up.
     const gpu::Image& image() const { return image_; }

@@ -14,6 +14,8 @@ namespace spirv {
 
 /// 64 MiB of half floats.
 constexpr double maxTexels = 32.0 * 1024 * 1024;
+/// 3D images end at 2048 texels.
+constexpr double mostAcross = 2000.0;
 constexpr int groupEdge = 8;  // of shadow_volume.comp
 
 /// Columns: two unit vectors across the light and the light itself.
@@ -27,9 +29,49 @@ glm::dmat3 texelToTexture(const ShadowGrid& grid) {
     return {1.0 / grid.size.x, 0, 0, 0, 1.0 / grid.size.y, 0, 0, 0, 1.0 / grid.size.z};
 }
 
+/// Edges of voxels that differ by more than this are flat: a cubic texel would hold many of them along the short edge.
+constexpr double flat = 1.1;
+
+bool isFlat(const glm::dmat3& voxelToMetres) {
+    const glm::dvec3 edges(glm::length(voxelToMetres[0]), glm::length(voxelToMetres[1]), glm::length(voxelToMetres[2]));
+    return std::max(edges.x, std::max(edges.y, edges.z)) > flat * std::min(edges.x, std::min(edges.y, edges.z));
+}
+
+/// Columns of a sheared grid: two voxel axes, and the light from one layer of voxels to the next along the third, the one
+/// along which it crosses the most. Texels are as fine as the voxels, whatever their shape.
+ShadowGrid layeredGrid(const cloud::Asset& cloud, const glm::dvec3& sunTravel, double most, int reduction) {
+    const glm::dvec3 travel = glm::inverse(cloud.voxelToMetres) * sunTravel;
+    int along = 0;
+    for (int axis = 1; axis < 3; ++axis)
+        if (std::abs(travel[axis]) > std::abs(travel[along])) along = axis;
+    const int axes[2] = {(along + 1) % 3, (along + 2) % 3};
+    const glm::dvec3 layer = travel / std::abs(travel[along]), size(cloud.size);
+    glm::dvec3 extent(0.0, 0.0, size[along]), origin(0.0);
+    origin[along] = travel[along] > 0.0 ? 0.0 : size[along];
+    glm::dmat3 columns(0.0);
+    for (int i = 0; i < 2; ++i) {
+        // by so much the light drifts aside on its way through all layers
+        const double drift = layer[axes[i]] * size[along];
+        origin[axes[i]] = std::min(0.0, -drift);
+        extent[i] = size[axes[i]] + std::abs(drift);
+        columns[i][axes[i]] = 1.0;
+    }
+    columns[2] = layer;
+    const double coarsest = std::cbrt(extent.x * extent.y * extent.z / most);
+    const double widest = std::max(extent.x, std::max(extent.y, extent.z)) / mostAcross;
+    const double texel = reduction * std::max(1.0, std::max(coarsest, widest));
+    ShadowGrid grid;
+    grid.size = glm::ivec3(glm::ceil(extent / texel)) + 1;
+    grid.gridToVoxel = columns * texel;
+    grid.originVoxel = origin;
+    grid.spacing = texel * glm::length(cloud.voxelToMetres * layer);
+    return grid;
+}
+
 }  // namespace
 
 ShadowGrid makeShadowGrid(const cloud::Asset& cloud, const glm::dvec3& sunTravel, double maxTexels, int reduction) {
+    if (isFlat(cloud.voxelToMetres)) return layeredGrid(cloud, sunTravel, maxTexels, reduction);
     const glm::dmat3 frame = lightFrame(sunTravel);
     const glm::dmat3 voxelToLight = glm::transpose(frame) * cloud.voxelToMetres;
     glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
@@ -43,7 +85,7 @@ ShadowGrid makeShadowGrid(const cloud::Asset& cloud, const glm::dvec3& sunTravel
     ShadowGrid grid;
     const double finest = std::cbrt(cloud.voxelVolume);
     const double coarsest = std::cbrt(extent.x * extent.y * extent.z / maxTexels);
-    const double widest = std::max(extent.x, std::max(extent.y, extent.z)) / 2000.0;  // 3D images end at 2048 texels
+    const double widest = std::max(extent.x, std::max(extent.y, extent.z)) / mostAcross;
     grid.spacing = reduction * std::max(finest, std::max(coarsest, widest));
     grid.size = glm::ivec3(glm::ceil(extent / grid.spacing)) + 1;
     const glm::dmat3 lightToVoxel = glm::inverse(voxelToLight);

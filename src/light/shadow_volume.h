@@ -14,11 +14,11 @@ struct ShadowGrid {
     glm::ivec3 size{0};
     glm::dmat3 gridToVoxel{1.0};  ///< voxels per texel; the third axis runs along the light
     glm::dvec3 originVoxel{0.0};  ///< middle of texel (0,0,0)
-    double spacing = 0.0;         ///< metres between texels
+    double spacing = 0.0;         ///< metres between texels along the light
 };
 
 /// A grid that covers the cloud's box, as fine as its voxels where that stays within `maxTexels`, or `reduction` times
-/// as coarse.
+/// as coarse. Texels are cubes; where voxels are not, the grid is sheared along the light and has their shape.
 ShadowGrid makeShadowGrid(const cloud::Asset& cloud, const glm::dvec3& sunTravel, double maxTexels, int reduction = 1);
 
 /// Optical depth towards the sun through the whole cloud. Made anew for each direction of the sun; not at all for a

@@ -11,6 +11,7 @@
 #include "medium/inverse_cdf.h"
 #include "medium/phase_function.h"
 #include "medium/single_scattering.h"
+#include "medium/sun_axis.h"
 #include "medium/sun_disc.h"
 #include "shared/phase_table.h"
 
@@ -42,6 +43,18 @@ void addSingleScattering(ScatteringTables& tables, const PhaseFunction& phase, d
     tables.extinctionScale = glm::vec3(extinctionScale);
 }
 
+/// Bands of a collector that are used where there are rings. A backward peak hands all bands on, noise included, and noise
+/// below zero is cut off: more bands make pictures too bright (docs/experiments/backward-peak.md).
+constexpr int bandsBesideRings = 3;
+
+void addAxisTable(ScatteringTables& tables, const scene::Phase& phase, int bands) {
+    scene::Phase mirrored = phase;
+    mirrored.g = -phase.g;  // only models with a g have such a peak
+    const int used = std::min(bands, bandsBesideRings);
+    tables.axisTable = makeAxisTable(PhaseFunction(mirrored), static_cast<double>(tables.angleScale), used);
+    for (std::size_t l = static_cast<std::size_t>(used); l < tables.bandMoments.size(); ++l) tables.bandMoments[l] = 0.0F;
+}
+
 }  // namespace
 
 ScatteringTables makeScatteringTables(const scene::Phase& phase, double cutRadians, const glm::dvec3& albedo, int bands,
@@ -65,6 +78,7 @@ ScatteringTables makeScatteringTables(const scene::Phase& phase, double cutRadia
     }
     tables.angleScale = static_cast<float>(function.lobeWidth());
     tables.phaseTable = makePhaseTable(function, static_cast<double>(tables.angleScale), discRadius);
+    if (hasBackwardPeak(function)) addAxisTable(tables, phase, bands);
     if (cutRadians > 0.0) {
         addSingleScattering(tables, function, cutRadians, albedo, discRadius);
     }

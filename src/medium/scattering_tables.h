@@ -11,7 +11,7 @@ namespace lumulus::phase {
 struct ScatteringTables {
     float forwardFraction = 0.0F;  ///< f = P(θ < θc)
     float scatterFraction = 1.0F;  ///< 1 − f without cancellation
-    /// χ'_l = b_l/(1−f), l = 0..bands−1: the moments of p restricted to θ ≥ θc.
+    /// χ'_l = b_l/(1−f), l = 0..bands−1: the moments of p restricted to θ ≥ θc; 0 for bands that rings take over.
     std::vector<float> bandMoments;
 
     bool analyticHg = false;  ///< true: sample with sampleHg(g, u, scatterFraction); false: with inverseCdf
@@ -22,6 +22,8 @@ struct ScatteringTables {
     std::vector<float> inverseCdf;
 
     float angleScale = 1.0F;  ///< for angleToAxis
+    /// What rings about the sun's axis scatter beyond the bands (sun_axis.h); empty where the phase function has no backward peak.
+    std::vector<float> axisTable;
     /// ln p [ln 1/sr], p averaged over the sun's disc, phaseTableSize entries, looked up with
     /// tableCell(angleToAxis(angle, angleScale), phaseTableSize).
     std::vector<float> phaseTable;

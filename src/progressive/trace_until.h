@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 
@@ -25,11 +26,15 @@ struct Reached {
     int generations = 0;
     std::optional<double> noise;  ///< relMSE; absent: no time for an estimate
     double previewSeconds = 0.0;  ///< spent on estimating the noise
+    std::uint64_t photonsEach = 0;  ///< of a generation, where those of the scene took too long; else 0
+    bool unfinished = false;  ///< no generation ended in time: the last one was kept without photons on their way
 };
 
 /// Traces at least one generation, and more until the goal is met, with a Renderer made for progressive rendering.
 /// `elapsed` returns the seconds since the work began. The noise is estimated at growing intervals and when it may have
-/// reached the target. Errors: those of Renderer; Error if interrupted.
+/// reached the target. Where `seconds` is given, a generation that does not end in time is dropped. The first one has a
+/// share of the time; where it does not end in it, generations of fewer photons take its place, and at last a few
+/// photons as far as they come. Errors: those of Renderer; Error if interrupted.
 Reached traceUntil(Renderer& renderer, const Goal& goal, const std::function<double()>& elapsed, const Report& report);
 
 }  // namespace lumulus::progressive

@@ -64,7 +64,7 @@ LayeredImage picture(const Film& film, const glm::dvec3& skyUnit, const glm::dve
         put(radiance, i, mean);
         put(cloud, i, sums.scattered / n);
         if (film.samples > 1) put(variance, i, varianceOfMean(sums.square / n, mean, n));
-        if (sums.discSamples > 0.0) image.layer("sun.disc")[i] = static_cast<float>(sums.discSamples / n);
+        if (sums.discShare > 0.0) image.layer("sun.disc")[i] = static_cast<float>(sums.discShare / n);
     }
     putLines(film, image);
     std::vector<float>& alpha = image.layer("A", 1.0F);

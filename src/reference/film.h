@@ -15,8 +15,8 @@ struct PixelSums {
     glm::dvec3 scattered{0.0};      ///< radiance except that of the sky and sun directly behind
     glm::dvec3 square{0.0};         ///< squares of the whole radiance
     glm::dvec3 passed{0.0};         ///< radiance of the sky directly behind, in Environment::unit
-    glm::dvec3 disc{0.0};           ///< transmittance of the samples that look at the sun's disc
-    double discSamples = 0.0;       ///< number of those samples
+    glm::dvec3 disc{0.0};           ///< transmittance to the sun's disc, times its share of the pixel
+    double discShare = 0.0;         ///< that share
     glm::dvec3 transmittance{0.0};  ///< of cloud, fog and surfaces
     double clear = 0.0;             ///< transmittance of cloud and surfaces alone
     double distance = 0.0;          ///< to cloud and surfaces, weighted by their opacity: ∫ t T σt dt, metres

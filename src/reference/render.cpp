@@ -73,6 +73,8 @@ Renderer::Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolum
       tracer_(scene, volumes, majorant, camera_.position),
       discRadiance_(tracer_.environment().discRadiance(camera_.position, scene.sun.directionTo)),
       background_(scene.image.background),
+      discCover_(camera_, tracer_.environment().sunDirection(),
+                 tracer_.environment().sunny() ? tracer_.environment().sunRadius() : 0.0),
       seed_(seed),
       fingerprint_(fingerprintOf(scene, volumes, camera_, majorant, seed)) {
     film_.width = scene.image.width;
@@ -97,19 +99,17 @@ Renderer::Sample Renderer::sample(int x, int y) const {
     result.lost = path.lost;
     result.sums.scattered = path.radiance;
     if (background_) result.sums.passed = path.passed;
-    const bool atDisc = tracer_.environment().discRadiance(ray.origin, ray.direction) != glm::dvec3(0.0);
-    const bool forLines = isLineSample(film_.samples);
-    if (atDisc || forLines) {
+    if (isLineSample(film_.samples)) {
         const RayIntegrals line = tracer_.integrate(ray);
-        if (forLines) {
-            result.sums.transmittance = line.transmittance;
-            result.sums.clear = line.clear;
-            result.sums.distance = line.distance;
-        }
-        if (atDisc) {
-            if (background_) result.sums.disc = line.transmittance;
-            result.sums.discSamples = 1.0;
-        }
+        result.sums.transmittance = line.transmittance;
+        result.sums.clear = line.clear;
+        result.sums.distance = line.distance;
+    }
+    if (const DiscCover::Pixel* covered = discCover_.find(x, y)) {
+        const glm::dvec2 place = covered->sample(random);
+        const glm::dvec3 through = tracer_.integrate(camera_.ray(place.x, place.y)).transmittance;
+        if (background_) result.sums.disc = covered->share * through;
+        result.sums.discShare = covered->share;
     }
     const glm::dvec3 radiance =
         result.sums.scattered + result.sums.passed * tracer_.environment().unit() + result.sums.disc * discRadiance_;
@@ -135,7 +135,7 @@ bool Renderer::pass(const Continue& goOn) {
         sums.square += added.square;
         sums.passed += added.passed;
         sums.disc += added.disc;
-        sums.discSamples += added.discSamples;
+        sums.discShare += added.discShare;
         sums.transmittance += added.transmittance;
         sums.clear += added.clear;
         sums.distance += added.distance;

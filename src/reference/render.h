@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "reference/disc_cover.h"
 #include "reference/film.h"
 #include "reference/tracer.h"
 #include "view/camera.h"
@@ -20,8 +21,9 @@ class Renderer {
     Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
              std::uint64_t seed);
 
-    /// Adds a sample to every pixel, at a random point of the pixel (a box filter), on all threads of TBB. A pass that
-    /// is stopped leaves the film as it was and returns false.
+    /// Adds a sample to every pixel, at a random point of the pixel (a box filter), on all threads of TBB. The sun's disc
+    /// is looked at through a random point of what it covers. A pass that is stopped leaves the film as it was and
+    /// returns false.
     bool pass(const Continue& goOn);
 
     const Film& film() const { return film_; }
@@ -49,6 +51,7 @@ class Renderer {
     PathTracer tracer_;
     glm::dvec3 discRadiance_;
     bool background_;  ///< whether samples hold the sky and the sun's disc directly behind
+    DiscCover discCover_;
     std::uint64_t seed_;
     std::uint64_t fingerprint_;
     Film film_;

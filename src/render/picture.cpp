@@ -21,11 +21,8 @@ void PictureOrder::drawBackground(ViewState::State& state) {
         state.frame.reset();
         state.frame.emplace(work.context, size);
     }
-    const auto seen = frame::sunPixels(state.camera, state.tile, world.lights.sun, world.lights.environment,
-                                       state.raysAcross, state.shown);
     work.run([&](gpu::Commands& commands) {
-        state.frame->recordBackground(commands, glm::vec3(world.lights.environment.uniformRadiance()), seen,
-                                      state.shown);
+        state.frame->recordBackground(commands, glm::vec3(world.lights.environment.uniformRadiance()), state.shown);
     });
 }
 
@@ -47,14 +44,19 @@ LayeredImage PictureOrder::picture(ViewState::State& state, const View& view) {
     if (fog != nullptr)
         drawBackground(state);
     else
-        image = frame::skyImage(state.camera, state.tile, world.lights.sun, world.lights.environment, state.raysAcross,
-                                state.shown);
+        image = frame::emptyFrame(state.tile, world.lights.environment.uniformRadiance());
     if (state.shown.height > 0) {
         drawLight(state, photon::Part::all);
         painter->paint(work, world, state, draw::allBands(state.shown), fog == nullptr ? &image : nullptr, check,
                        report);
     }
-    if (fog != nullptr) image = throughFog(state, wanted);
+    const std::vector<shared::SunPixel> sun = frame::sunPixels(state.camera, state.tile, world.lights.sun);
+    if (fog != nullptr) {
+        if (!sun.empty()) work.run([&](gpu::Commands& commands) { state.frame->recordSun(commands, sun); });
+        image = throughFog(state, wanted);
+    } else {
+        frame::addSun(image, sun);
+    }
     if (!view.image.background) frame::leaveOutBackground(image);
     return image;
 }

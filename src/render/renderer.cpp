@@ -94,16 +94,23 @@ int Renderer::generationsWanted() const {
 }
 
 void Renderer::traceGeneration() {
+    traceGeneration({});
+}
+
+bool Renderer::traceGeneration(const CutOff& cutOff) {
     State& s = *state_;
     const Stopwatch watch;
-    for (std::size_t i = 0; i < s.world->light.size(); ++i) {
-        light::InstanceLight& light = s.world->light[i];
-        const double extinction = s.world->instances[i].medium.extinction;
-        if (light.photons) light.photons->trace(light.sun, s.world->lights.environment, extinction);
-        light.changed();
-    }
-    ++s.sinceChange;
+    const bool finished = traceAll(*s.world, cutOff);
+    if (finished) ++s.sinceChange;
     s.statistics.traceSeconds += watch.seconds();
+    return finished;
+}
+
+std::uint64_t Renderer::shrinkGenerations(std::uint64_t divisor, std::uint64_t fewest) {
+    std::uint64_t photons = 0;
+    for (light::InstanceLight& light : state_->world->light)
+        if (light.photons) photons += light.photons->shrinkGenerations(divisor, fewest);
+    return photons;
 }
 
 View Renderer::sceneView() const {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/cut_off.h"
 #include "base/image.h"
 #include "base/interrupt.h"
 #include "base/pass_time.h"
@@ -97,8 +98,15 @@ class Renderer {
 
     /// Generations that the scene asks for (0 where no photon is needed).
     int generationsWanted() const;
-    /// Traces one generation into the oldest slot of the ring of every cloud.
+    /// Traces one generation into the oldest slot of the ring of every cloud. Where `check` throws between two rounds of
+    /// photons and there is a ring, the light of before stays.
     void traceGeneration();
+    /// The same, unless `cutOff` ends it between two rounds of photons. Returns false then: what was traced is dropped,
+    /// and the light of before stays, with a ring or without.
+    bool traceGeneration(const CutOff& cutOff);
+    /// Divides the photons of all generations by `divisor`, down to `fewest` in the largest cloud or what there are.
+    /// Only before the first one. Returns the photons of a generation.
+    std::uint64_t shrinkGenerations(std::uint64_t divisor, std::uint64_t fewest);
     /// Draws a view: layers as in the documented EXR contract. All views share the photons.
     LayeredImage draw(const View& view, ViewState& state);
     /// The same for a viewer who looks once.

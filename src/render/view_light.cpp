@@ -24,7 +24,9 @@ void makeRoom(gpu::Context& context, const cloud::Asset& asset, light::InstanceL
 light::CollisionEstimates estimates(const light::InstanceLight& light, const phase::ScatteringMedium& medium, int bands,
                                     const photon::Light& counted) {
     const photon::PhotonMap& photons = *light.photons;
-    const double moment = bands > 1 ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
+    // a backward peak answers a change of direction in all bands at once, of which the first alone says nothing
+    const bool known = bands > 1 && medium.tables.axisTable.empty();
+    const double moment = known ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
     return {*counted.counts, photons.estimatorBase(), counted.unit, photons.photonPower(), photons.massScale(), moment};
 }
 
@@ -48,7 +50,7 @@ void recordField(gpu::Commands& commands, const cloud::Instance& instance, light
         light.cells->recordCounts(commands, photons.fluences(), estimates(light, instance.medium, bands, counted));
         light.counted = all;
     }
-    seen.field->record(commands, *light.cells, eye, photons.radiance());
+    seen.field->record(commands, *light.cells, eye, photons.radiance(), photons.colours());
     seen.eye = all ? std::optional(eye) : std::nullopt;
     seen.version = light.version;
 }

@@ -218,4 +218,28 @@ World makeWorldBeside(gpu::Context& context, const scene::Scene& scene, const Wo
     return Maker(context, scene, options, report).makeBeside(other);
 }
 
+bool traceAll(World& world, const CutOff& cutOff) {
+    const auto dropAll = [&world] {
+        for (light::InstanceLight& light : world.light)
+            if (light.photons) light.photons->drop();
+        return false;
+    };
+    try {
+        for (std::size_t i = 0; i < world.light.size(); ++i) {
+            light::InstanceLight& light = world.light[i];
+            const double extinction = world.instances[i].medium.extinction;
+            if (light.photons && !light.photons->tryTrace(light.sun, world.lights.environment, cutOff, extinction))
+                return dropAll();
+        }
+    } catch (...) {
+        dropAll();
+        throw;
+    }
+    for (light::InstanceLight& light : world.light) {
+        if (light.photons) light.photons->keep();
+        light.changed();
+    }
+    return true;
+}
+
 }  // namespace lumulus

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/cut_off.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "cloud/instance.h"
@@ -53,5 +54,9 @@ World makeWorld(gpu::Context& context, const scene::Scene& scene, const WorldOpt
 /// has it, and no photons yet. Errors: as above.
 World makeWorldBeside(gpu::Context& context, const scene::Scene& scene, const World& other,
                       const WorldOptions& options);
+
+/// Traces a generation of photons in every cloud. Returns false where `cutOff` ended one of them: none of them counts
+/// then.
+bool traceAll(World& world, const CutOff& cutOff);
 
 }  // namespace lumulus

@@ -46,9 +46,10 @@ LayeredImage expected(const glm::ivec2& size, const Tile& place, const std::vect
     copyPixels(numberedPixels(place), image, place);
     for (const shared::SunPixel& seen : sun) {
         const auto i = static_cast<std::size_t>(seen.pixel.y * size.x + seen.pixel.x);
-        image.layers.at("R")[i] = seen.radiance.x;
-        image.layers.at("G")[i] = seen.radiance.y;
-        image.layers.at("B")[i] = seen.radiance.z;
+        const float passed = image.layers.at("transmittance.R")[i];
+        image.layers.at("R")[i] += passed * seen.radiance.x;
+        image.layers.at("G")[i] += passed * seen.radiance.y;
+        image.layers.at("B")[i] += passed * seen.radiance.z;
     }
     return image;
 }
@@ -56,7 +57,8 @@ LayeredImage expected(const glm::ivec2& size, const Tile& place, const std::vect
 TEST_F(FrameTest, WhatIsPutInComesOut) {
     const glm::ivec2 size(37, 21);
     const Tile place{5, 3, 17, 9};
-    const std::vector<shared::SunPixel> sun{{{0, 0}, {3.0F, 4.0F, 5.0F}}, {{36, 20}, {6.0F, 7.0F, 8.0F}}};
+    const std::vector<shared::SunPixel> sun{
+        {{0, 0}, {3.0F, 4.0F, 5.0F}}, {{6, 4}, {1.0F, 2.0F, 3.0F}}, {{36, 20}, {6.0F, 7.0F, 8.0F}}};
     EXPECT_EQ(filled(size, place, sun, {0, 0, size.x, size.y}).layers, expected(size, place, sun).layers);
 }
 

@@ -118,12 +118,13 @@ class LightFieldTest : public test::VulkanTest, public testing::WithParamInterfa
         gpu::upload(context, estimates, counts);
         const gpu::Image fluences = collectorImage(dvec4(0.0, 0.0, 0.0, fluence), cloud.collectors.size());
         const gpu::Image towardsEye = collectorImage(radiance, cloud.collectors.size());
+        const gpu::Image colours = collectorImage(dvec4(1.0, 2.0, 4.0, 1.0), cloud.collectors.size());
         const LightCells lit(context, cloud, cells, cells);
         const LightField field(context, cells);
         gpu::Commands commands(context);
         commands.begin();
         lit.recordCounts(commands, fluences, {estimates, 0, photon, photon, massScale, 0.0});
-        field.record(commands, lit, glm::vec3(-50.0F, 20.0F, 10.0F), towardsEye);
+        field.record(commands, lit, glm::vec3(-50.0F, 20.0F, 10.0F), towardsEye, colours);
         commands.submit();
         commands.wait();
         Grid<glm::vec4> result(cells.cells);
@@ -150,6 +151,44 @@ TEST_P(LightFieldTest, HoldsWhatWasCountedAndNothingElse) {
     }
     EXPECT_GT(dark, cells.count() / 8);
     EXPECT_LT(dark, cells.count() * 7 / 8);
+}
+
+/// Where few photons met, the collectors' light towards the eye cancels but for a rest in the colour of one of them. What
+/// the count of directions adds then has the colour of all light there.
+TEST_F(LongCloud, WhatIsCountedHasTheColourOfAllLight) {
+    vdb::Volume volume = test::emptyVolume({8, 8, 8});
+    test::fillVolume(volume, [](const ivec3&) { return 1.0; });
+    const cloud::Asset cloud = cloud::prepare(context, volume, test::prepareOptions(50));
+    const cloud::CellGrid cells{2, ivec3(4)};
+    const auto image = [&](const glm::vec4& value) {
+        gpu::Image made(context, "of collectors", glm::ivec2(static_cast<int>(shared::COLLECTORS_WIDTH), 1),
+                        VK_FORMAT_R32G32B32A32_SFLOAT);
+        gpu::upload(context, made, std::vector<glm::vec4>(shared::COLLECTORS_WIDTH, value));
+        return made;
+    };
+    const gpu::Image fluences = image({0.0F, 0.0F, 0.0F, 3.0F}), towardsEye = image({1e-3F, 1e-5F, 1e-6F, 1.0F}),
+                     colours = image({1.0F, 2.0F, 4.0F, 1.0F});
+    std::vector<std::int64_t> counts(shared::estimatorCounts(cells.cells));
+    forEach(ivec3(0), cells.cells, [&](const ivec3& cell) {
+        const auto cube = shared::cubePlace(cells.cells, cell);
+        counts[cube + shared::placeInCube(cell)] = 100;
+        counts[cube + static_cast<unsigned>(shared::CUBE_CELLS)] = 600;  // towards +x, where the eye is
+    });
+    gpu::Buffer estimates(context, "estimates", counts.size() * sizeof(std::int64_t), gpu::Memory::device);
+    gpu::upload(context, estimates, counts);
+    const LightCells lit(context, cloud, cells, cells);
+    const LightField field(context, cells);
+    gpu::Commands commands(context);
+    commands.begin();
+    lit.recordCounts(commands, fluences, {estimates, 0, photon, photon, massScale, 0.8});
+    field.record(commands, lit, glm::vec3(1000.0F, 4.0F, 4.0F), towardsEye, colours);
+    commands.submit();
+    commands.wait();
+    for (const glm::vec4& light : gpu::download<glm::vec4>(context, field.image())) {
+        EXPECT_GT(light.r, 0.0F);
+        EXPECT_NEAR(light.r / light.b, 0.25F, 0.01F);
+        EXPECT_NEAR(light.g / light.b, 0.5F, 0.01F);
+    }
 }
 
 /// As long as volumes may be where devices have 2048 texels along them, with more photons than voxels.

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "base/error.h"
 #include "gpu/transfer.h"
 #include "light/photon/photon_map.h"
@@ -103,6 +105,65 @@ TEST_F(PhotonRing, LightOfOneBufferIsThatOfTheRing) {
         EXPECT_EQ(watts(lean.light()), watts(map.light())) << photons << " photons";
         EXPECT_EQ(lean.downloadSum(), map.downloadSum()) << photons << " photons";
     }
+}
+
+/// Light of before stays when a generation is cut off between two rounds, and the next one has the bits that it has
+/// without that: in a ring, in one buffer, and where even and odd generations are apart.
+TEST_F(PhotonRing, ACutOffGenerationLeavesNothing) {
+    medium = test::mediumOf({.extinction = 20.0, .phase = {.g = 0.0}, .bands = bands});  // many rounds
+    for (int kind = 0; kind < 3; ++kind) {
+        Options wanted = test::mapOptions(2000, slots, bands);
+        wanted.keepRing = kind == 0;
+        wanted.splitGenerations = kind == 2;
+        PhotonMap map(context, cloud, medium, wanted), other(context, cloud, medium, wanted);
+        for (int generation = 0; generation < 3; ++generation) {
+            EXPECT_FALSE(map.tryTrace(sunAt(0), skyAt(0), {[] { return true; }})) << kind;
+            int asked = 0;
+            EXPECT_FALSE(map.tryTrace(sunAt(0), skyAt(0), {[&] { return ++asked == 3; }})) << kind;
+            EXPECT_EQ(asked, 3);
+            EXPECT_EQ(map.generationsInRing(), generation);
+            EXPECT_TRUE(map.tryTrace(sunAt(0), skyAt(0), {[] { return false; }}));
+            map.keep();
+            other.trace(sunAt(0), skyAt(0));
+        }
+        EXPECT_EQ(map.counters().events, other.counters().events) << kind;
+        EXPECT_EQ(map.counters().emitted, 6000U);
+        EXPECT_EQ(map.downloadSum(), other.downloadSum()) << kind;
+        EXPECT_THAT(map.downloadSum(), testing::Contains(testing::Ne(0)));
+    }
+}
+
+/// What ends a walk by an exception does not hurt the light of a ring either, as when a client has gone.
+TEST_F(PhotonRing, AnExceptionBetweenRoundsLeavesTheLightOfBefore) {
+    medium = test::mediumOf({.extinction = 20.0, .phase = {.g = 0.0}, .bands = bands});
+    int rounds = 0;
+    bool ends = false;
+    Options wanted = test::mapOptions(2000, slots, bands);
+    wanted.check = [&] {
+        if (ends && ++rounds == 2) throw std::runtime_error("the client has gone");
+    };
+    PhotonMap map(context, cloud, medium, wanted), other(context, cloud, medium, wanted);
+    map.trace(sunAt(0), skyAt(0));
+    ends = true;
+    EXPECT_THROW(map.trace(sunAt(0), skyAt(0)), std::runtime_error);
+    ends = false;
+    map.trace(sunAt(0), skyAt(0));
+    for (int generation = 0; generation < 2; ++generation) other.trace(sunAt(0), skyAt(0));
+    EXPECT_EQ(map.downloadSum(), other.downloadSum());
+}
+
+/// Photons on their way are given up where that is asked for, and counted.
+TEST_F(PhotonRing, UnfinishedPhotonsAreCountedAsLost) {
+    medium = test::mediumOf({.extinction = 20.0, .phase = {.g = 0.0}, .bands = bands});
+    PhotonMap map(context, cloud, medium, test::mapOptions(2000, slots, bands));
+    EXPECT_EQ(map.shrinkGenerations(64, 64), 64U);
+    EXPECT_TRUE(map.tryTrace(test::noSun(), skyAt(0), {[] { return true; }, true}));
+    map.keep();
+    const Counters counters = map.counters();
+    EXPECT_EQ(counters.emitted, 64U);
+    EXPECT_GT(counters.lost, 0U);
+    EXPECT_EQ(counters.absorbed + counters.escaped + counters.lost, 64U);
+    EXPECT_THAT(map.downloadSum(), testing::Contains(testing::Ne(0)));
 }
 
 TEST_F(PhotonRing, SameSeedSameBits) {

@@ -8,7 +8,7 @@
 
 namespace lumulus::test {
 
-/// A frame under a sky of that radiance, with drawn pixels in the rectangle `place` and the sun in others.
+/// A frame under a sky of that radiance, with drawn pixels in the rectangle `place` and the sun's disc before it.
 inline void fillFrame(gpu::Context& context, frame::Frame& frame, const glm::vec3& sky,
                       const std::vector<shared::Pixel>& drawn, const Tile& place,
                       const std::vector<shared::SunPixel>& sun) {
@@ -17,9 +17,11 @@ inline void fillFrame(gpu::Context& context, frame::Frame& frame, const glm::vec
                              VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Memory::host);
     std::ranges::copy(drawn, pixels.mapped<shared::Pixel>().begin());
     commands.begin();
-    frame.recordBackground(commands, sky, sun, place);
+    frame.recordBackground(commands, sky, place);
     commands.barrier("frame background");
     frame.recordBand(commands, pixels, place);
+    commands.barrier("frame band");
+    if (!sun.empty()) frame.recordSun(commands, sun);
     commands.submit();
     commands.wait();
 }

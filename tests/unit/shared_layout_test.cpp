@@ -106,7 +106,7 @@ TEST(SharedLayout, Photon) {
     EXPECT_LAYOUT(trace_comp, TraceParams, worldToCells, size, cells, cellSize, extinction, scatterShare, albedo,
                   straightWeight, scatterFraction, asymmetry, sunDirection, sunCone, faceArea, faceSize, sunThrough,
                   sunPower, skyPower, sunPhotons, photons, generation, stream, collectors, invocations, recordCapacity,
-                  stepLimit, collisionLimit, estimatorBase, estimatorEdge, estimatorCells);
+                  stepLimit, collisionLimit, estimatorBase, estimatorEdge, estimatorCells, axisBase);
     EXPECT_LAYOUT(trace_comp, TraceState, cell, offset, direction, weight, depth, photon, draws, collisions,
                   scatterings, alive);
     EXPECT_LAYOUT(trace_comp, PhotonRecord, collector, direction, power);
@@ -114,12 +114,13 @@ TEST(SharedLayout, Photon) {
                   transmittedDiffuse, transmittedDirect, pending, unused);
     EXPECT_PUSH(gather_comp, GatherPush, collectors, invocations, recordCapacity);
     EXPECT_PUSH(accumulate_comp, AccumulatePush, coefficients, shift, keepSlots);
-    EXPECT_PUSH(reconstruct_comp, ReconstructPush, collectors, scale, eye, voxelToWorld);
+    EXPECT_PUSH(reconstruct_comp, ReconstructPush, collectors, scale, eye, voxelToWorld, sunDirection, axisBase,
+                angleScale);
 }
 
 TEST(SharedLayout, Draw) {
     EXPECT_LAYOUT(billboards_comp, ViewParams, right, up, forward, halfExtent, size, projection);
-    EXPECT_LAYOUT(billboards_comp, LightParams, sunTravel, sunDisc, sunCone);
+    EXPECT_LAYOUT(billboards_comp, LightParams, sunTravel);
     EXPECT_LAYOUT(billboards_comp, EnvironmentParams, radiance);
     EXPECT_LAYOUT(billboards_comp, AtlasParams, density, light, shadow);
     EXPECT_LAYOUT(billboards_comp, InstanceParams, worldToVoxel, eyeVoxel, size, cells, cellSize, extinction,

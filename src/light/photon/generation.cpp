@@ -9,6 +9,7 @@
 #include "gpu/transfer.h"
 #include "light/photon/map_limits.h"
 #include "light/photon/trace_program.h"
+#include "shared/collision_estimator.h"
 #include "shared/rng.h"
 
 namespace lumulus::photon {
@@ -34,7 +35,8 @@ constexpr std::uint32_t coreInvocations = 512, gpuInvocations = 65536;
 constexpr unsigned leastCores = 2, mostCores = 16;
 /// Rows of workgroups that share the records of the invocations.
 constexpr std::uint32_t sortRows = 16;
-constexpr std::uint32_t stepLimit = 1U << 15U;
+/// Steps of an invocation in one round: a round ends within tenths of a second, so that work can end between two.
+constexpr std::uint32_t stepLimit = 1U << 13U;
 /// A photon that collides more often is counted as lost. Optical depth 1e6 with albedo 1 stays below it.
 /// Seconds after which the next rounds of a generation get fewer steps.
 constexpr double longRound = 0.08;
@@ -134,6 +136,7 @@ shared::TraceParams GenerationTracer::traceParams(const Emission& emission, cons
     p.estimatorBase = collectors_ * 3U * static_cast<std::uint32_t>(options_.bands * options_.bands);
     p.estimatorEdge = options_.estimates.edge;
     p.estimatorCells = options_.estimates.cells;
+    p.axisBase = p.estimatorBase + shared::estimatorCounts(options_.estimates.cells);
     return p;
 }
 
@@ -154,7 +157,8 @@ void GenerationTracer::recordSort(const shared::GatherPush& push) {
     commands_.barrier("sorted records");
 }
 
-/// Divides by two the steps of a round: between rounds work can be cut off. Photons go the same ways, whatever their number.
+/// Divides the steps of a round by two: between rounds work can be cut off. Photons go the same ways, however many
+/// steps a round has.
 void GenerationTracer::shortenRounds() {
     constexpr std::uint32_t fewest = 16;
     std::uint32_t& steps = params_.mapped<shared::TraceParams>()[0].stepLimit;
@@ -195,12 +199,14 @@ void GenerationTracer::round(const gpu::Buffer& coefficients) {
     commands_.wait();
 }
 
-void GenerationTracer::trace(const Emission& emission, const scene::Sun& sun, double extinction, int unitExponent,
+bool GenerationTracer::trace(const Emission& emission, const scene::Sun& sun, double extinction, int unitExponent,
                              std::uint32_t number, const gpu::Buffer& coefficients, Counters& counters,
-                             std::uint64_t& unsettledRecords, PassLog& log) {
+                             std::uint64_t& unsettledRecords, PassLog& log, const CutOff& cutOff) {
     params_.mapped<shared::TraceParams>()[0] = traceParams(emission, sun, extinction, unitExponent, number);
     resetStates(states_.mapped<shared::TraceState>().subspan(0, invocations_));
     const shared::TraceCounters& c = counters_.mapped<shared::TraceCounters>()[0];
+    std::uint64_t ended = 0;
+    counters.emitted += options_.photonsPerGeneration;
     do {
         options_.check();
         const Stopwatch watch;
@@ -215,8 +221,13 @@ void GenerationTracer::trace(const Emission& emission, const scene::Sun& sun, do
         counters.records += c.records;
         unsettledRecords += c.records;
         requireCountable(unsettledRecords);
+        ended += c.absorbed + c.escaped + c.lost;
+        if (c.pending == 0 || !cutOff.isDue()) continue;
+        if (!cutOff.keepUnfinished) return false;
+        counters.lost += options_.photonsPerGeneration - ended;
+        break;
     } while (c.pending > 0);
-    counters.emitted += options_.photonsPerGeneration;
+    return true;
 }
 
 }  // namespace lumulus::photon

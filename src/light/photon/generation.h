@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "base/cut_off.h"
 #include "cloud/asset.h"
 #include "gpu/commands.h"
 #include "gpu/program.h"
@@ -32,11 +33,15 @@ class GenerationTracer {
 
     /// Adds the light of generation `number` under `extinction` (σt at density 1 [1/m]) to `coefficients`
     /// ([collector][RGB][bands²], then the estimates, int64), in counts of 2^unitExponent W / COEFFICIENT_SCALE, and
-    /// what happened to `counters`. `unsettledRecords` counts the records that `coefficients` hold. Errors: Error where
-    /// interrupted, or where the sums might wrap.
-    void trace(const Emission& emission, const scene::Sun& sun, double extinction, int unitExponent,
+    /// what happened to `counters`. `unsettledRecords` counts the records that `coefficients` hold. Returns false where
+    /// `cutOff` ended the walk before all photons had ended: what `coefficients` and the counters hold of the
+    /// generation is then of no use. Errors: Error where interrupted, or where the sums might wrap.
+    bool trace(const Emission& emission, const scene::Sun& sun, double extinction, int unitExponent,
                std::uint32_t number, const gpu::Buffer& coefficients, Counters& counters,
-               std::uint64_t& unsettledRecords, PassLog& log);
+               std::uint64_t& unsettledRecords, PassLog& log, const CutOff& cutOff);
+
+    /// Lowers the photons of the generations from now on. `photons` is at least 1 and at most what it was.
+    void setPhotons(std::uint64_t photons) { options_.photonsPerGeneration = photons; }
 
   private:
     const cloud::Asset& cloud_;

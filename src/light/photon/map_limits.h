@@ -11,7 +11,7 @@ struct MapSize {
     int generations = 20;  ///< slots of the ring
     bool keepRing = false;
     bool splitGenerations = false;  ///< even and odd generations apart
-    std::uint64_t estimates = 0;    ///< counts of them
+    std::uint64_t estimates = 0;    ///< counts of them, and of rings about the sun's axis
 };
 
 /// Bytes of one generation: [collector][RGB][bands²] and [addEstimate], int64.

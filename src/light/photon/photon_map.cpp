@@ -1,7 +1,6 @@
 #include "light/photon/photon_map.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <deque>
@@ -10,18 +9,19 @@
 
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
+#include "light/photon/coefficient_sums.h"
 #include "light/photon/emission.h"
 #include "light/photon/generation.h"
 #include "light/photon/map_limits.h"
 #include "shared/collision_estimator.h"
 #include "shared/photon.h"
+#include "shared/sun_axis.h"
 
 namespace lumulus::photon {
 
 namespace {
 
 namespace spirv {
-#include "spirv/photon/accumulate.comp.h"
 #include "spirv/photon/reconstruct.comp.h"
 }  // namespace spirv
 
@@ -37,9 +37,6 @@ constexpr int unitBits = 42;
 /// Of a record's 20 bits of power, given up where the ring then takes a generation of many photons as it is: without a
 /// ring generations then add up in one buffer, instead of a pass over all of it after each.
 constexpr int sparedBits = 4;
-/// Records that generations may leave together before the sum takes them: half of what requireCountable() allows.
-constexpr std::uint64_t settleBeyond = 1ULL << 37U;
-
 int exponentAbove(double value) {
     return static_cast<int>(std::ceil(std::log2(value)));
 }
@@ -62,13 +59,15 @@ gpu::Image collectorImage(gpu::Context& context, const char* name, std::uint32_t
 }
 
 /// Of all collectors together, where there is room for them.
-std::uint32_t coefficientsOf(const gpu::Context& context, std::uint32_t collectors, const Options& options) {
+std::uint32_t coefficientsOf(const gpu::Context& context, std::uint32_t collectors, const Medium& medium,
+                             const Options& options) {
+    const std::uint64_t rings = medium.tables.axisTable.empty() ? 0 : std::uint64_t{collectors} * shared::AXIS_COUNTS;
     const MapSize size{collectors,
                        options.bands,
                        options.generations,
                        options.keepRing,
                        options.splitGenerations,
-                       shared::estimatorCounts(options.estimates.cells)};
+                       shared::estimatorCounts(options.estimates.cells) + rings};
     requireMapFits(size, options.memoryBudget, context.limits().maxStorageBufferRange);
     return static_cast<std::uint32_t>(generationBytes(size) / sizeof(std::int64_t));
 }
@@ -84,40 +83,30 @@ struct PhotonMap::State {
     const Medium medium;
     Options options;
     std::uint32_t collectors;
-    std::uint32_t coefficients;  // of all collectors
 
+    CoefficientSums sums;
     GenerationTracer tracer;
-    Program<shared::AccumulatePush> accumulateProgram;
     Program<shared::ReconstructPush> reconstructProgram;
+    Buffer moments, places, axisTable;
+    gpu::Image fluences, colours, radiance;
 
-    Buffer moments, places, generation, oddGeneration, saturated;
-    std::optional<Buffer> sum;  // from when there is something to add together
-    gpu::Image fluences, radiance;
-    std::vector<Buffer> slots;
-    gpu::Commands commands;
-
-    int traced = 0;        // generations so far
-    int baseExponent = 0;  // of the ring's unit [W]; set by the first generation that has light
-    bool hasUnit = false;
-    std::optional<int> unsettled;  // unit exponent of what `generation` holds and the sum does not
-    std::uint64_t unsettledRecords = 0;
-    double flux = 0.0;        // luminance of the newest generation's light [W]
-    SplitCounts splitCounts;  // of what is unsettled
-    Counters counters;
+    double flux = 0.0;             // luminance of the newest generation's light [W]
+    glm::dvec3 sunDirection{0.0};  // of travel, of the newest generation's sun
+    Counters counters;             // of all generations, also those that were dropped
     PassLog log;
     std::deque<double> ringExtinctions;  // of the generations in the ring, over the medium's
+    double newExtinction = 0.0;          // of the generation that waits for keep() or drop()
 
-    /// From a generation's unit to the ring's.
-    int shiftOf(int unitExponent) const {
-        return unitExponent - std::countr_zero(static_cast<unsigned>(shared::COEFFICIENT_SCALE)) - baseExponent;
-    }
-    void makeRoom(int unitExponent);
-    void settle();
-    const Buffer& startedSum();
-    bool isAllUnsettled() const;
-    const Buffer& target();
-    double unsettledUnit() const;
-    void recordAdd(const Buffer& from, const Buffer& to, int shift);
+    /// What drop() goes back to.
+    struct Before {
+        double flux;
+        glm::dvec3 sunDirection;
+        Counters counters;
+    };
+    std::optional<Before> before;
+
+    int unitExponentFor(const Emission& emission, const scene::Sun& sun);
+    bool traceLit(const Emission& emission, const scene::Sun& sun, const CutOff& cutOff);
 };
 
 PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Asset& preparedCloud, const Medium& theMedium,
@@ -127,102 +116,36 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Asset& preparedCl
       medium(theMedium),
       options(theOptions),
       collectors(static_cast<std::uint32_t>(cloud.collectors.size())),
-      coefficients(coefficientsOf(context, collectors, options)),
+      sums(context, options, coefficientsOf(context, collectors, medium, options)),
       tracer(context, cloud, medium, options),
-      accumulateProgram(context, "accumulate", spirv::accumulate_comp),
-      reconstructProgram(context, "reconstruct", spirv::reconstruct_comp, {SpecConstant::of(0, options.bands)}),
+      reconstructProgram(context, "reconstruct", spirv::reconstruct_comp,
+                         {SpecConstant::of(0, options.bands), SpecConstant::of(1, !medium.tables.axisTable.empty())}),
       moments(context, "band moments", medium.tables.bandMoments.size() * sizeof(float), Memory::device),
       places(context, "collector places", collectors * sizeof(glm::vec4), Memory::device),
-      generation(context, "generation", coefficients * sizeof(std::int64_t), Memory::device),
-      oddGeneration(context, "odd generation", options.splitGenerations ? coefficients * sizeof(std::int64_t) : 0,
-                    Memory::device),
-      saturated(context, "saturated", sizeof(std::uint32_t), Memory::host),
+      axisTable(context, "axis table", std::max<std::size_t>(1, medium.tables.axisTable.size()) * sizeof(float),
+                Memory::device),
       fluences(collectorImage(context, "collector fluences", collectors)),
-      radiance(collectorImage(context, "collector radiance", collectors)),
-      commands(context) {
-    if (options.keepRing)
-        for (int i = 0; i < options.generations; ++i)
-            slots.emplace_back(context, "ring slot " + std::to_string(i), coefficients * sizeof(std::int64_t),
-                               Memory::device);
+      colours(collectorImage(context, "collector colours", collectors)),
+      radiance(collectorImage(context, "collector radiance", collectors)) {
     gpu::upload(context, moments, medium.tables.bandMoments);
+    if (!medium.tables.axisTable.empty()) gpu::upload(context, axisTable, medium.tables.axisTable);
 }
 
-/// Clears the generation's buffer, where it does not hold light in the same unit that the sum can take later, with room
-/// for more. A ring has to know its generations one by one; where they are rounded into it, so does a sum that is to
-/// have the same bits.
-void PhotonMap::State::makeRoom(int unitExponent) {
-    const bool exact = shiftOf(unitExponent) >= 0 || options.splitGenerations;
-    if (unsettled == unitExponent && exact && !options.keepRing && unsettledRecords <= settleBeyond) return;
-    settle();
-    commands.begin();
-    commands.fill(generation, 0);
-    if (options.splitGenerations) commands.fill(oddGeneration, 0);
-    commands.submit();
-    commands.wait();
-    unsettled = unitExponent;
-    unsettledRecords = 0;
+/// The unit of a generation's records, and with the first that has light, that of the sum.
+int PhotonMap::State::unitExponentFor(const Emission& emission, const scene::Sun& sun) {
+    const double most = std::max(maxChannel(emission.sunPower(options.photonsPerGeneration)),
+                                 maxChannel(emission.skyPower(options.photonsPerGeneration)));
+    if (!sums.hasUnit()) sums.setUnit(exponentAbove(greatestFlux(sun, emission, tracer.faceArea())) - unitBits);
+    const int unitExponent = exponentAbove(most / static_cast<double>(shared::POWER_UNITS));
+    const int finer = -sums.shiftOf(unitExponent);
+    return finer > 0 && finer <= sparedBits ? unitExponent + finer : unitExponent;
 }
 
-/// Where the next generation adds its light.
-const Buffer& PhotonMap::State::target() {
-    if (!options.splitGenerations) return generation;
-    const bool odd = traced % 2 == 1;
-    ++(odd ? splitCounts.odd : splitCounts.even);
-    return odd ? oddGeneration : generation;
-}
-
-/// Watts that one count of what is unsettled stands for.
-double PhotonMap::State::unsettledUnit() const {
-    assert(unsettled);
-    return std::ldexp(1.0 / static_cast<double>(shared::COEFFICIENT_SCALE), *unsettled);
-}
-
-/// Adds `from`, times 2^shift, to `to`, and where there is a ring to its newest slot.
-void PhotonMap::State::recordAdd(const Buffer& from, const Buffer& to, int shift) {
-    const std::size_t slot = static_cast<std::size_t>((traced - 1) % options.generations);
-    // Without a ring the slot is not read or written; another buffer stands in its place.
-    const Buffer& oldest = options.keepRing ? slots[slot] : places;
-    commands.dispatch(
-        accumulateProgram, {{"Generation", from}, {"Slot", oldest}, {"Sum", to}, {"Saturated", saturated}},
-        shared::AccumulatePush{coefficients, shift, options.keepRing ? 1U : 0U}, linearGroups(coefficients, 64));
-}
-
-/// The sum, empty at first.
-const Buffer& PhotonMap::State::startedSum() {
-    if (sum) return *sum;
-    sum.emplace(context, "ring sum", coefficients * sizeof(std::int64_t), Memory::device);
-    commands.begin();
-    commands.fill(*sum, 0);
-    commands.submit();
-    commands.wait();
-    return *sum;
-}
-
-/// Whether `generation` is what the sum would become, bit by bit.
-bool PhotonMap::State::isAllUnsettled() const {
-    return unsettled && !sum && !options.splitGenerations && shiftOf(*unsettled) >= 0;
-}
-
-/// Adds what was traced to the sum.
-void PhotonMap::State::settle() {
-    if (!unsettled) return;
-    const Buffer& total = startedSum();
-    saturated.mapped<std::uint32_t>()[0] = 0;
-    const int shift = shiftOf(*unsettled);
-    commands.begin();
-    commands.pass("accumulate");
-    if (options.splitGenerations) {
-        // joined before the sum rounds them: the same bits as if they had never been apart
-        recordAdd(oddGeneration, generation, 0);
-        commands.barrier("even and odd joined");
-    }
-    recordAdd(generation, total, shift);
-    commands.submit();
-    commands.wait();
-    log.add(commands);
-    counters.saturated += saturated.mapped<std::uint32_t>()[0];
-    unsettled.reset();
-    splitCounts = {};
+bool PhotonMap::State::traceLit(const Emission& emission, const scene::Sun& sun, const CutOff& cutOff) {
+    const int unitExponent = unitExponentFor(emission, sun);
+    const Buffer& into = sums.begin(unitExponent, static_cast<bool>(cutOff.due));
+    return tracer.trace(emission, sun, newExtinction, unitExponent, static_cast<std::uint32_t>(sums.kept()), into,
+                        counters, sums.records(), log, cutOff);
 }
 
 PhotonMap::PhotonMap(gpu::Context& context, const cloud::Asset& cloud, const Medium& medium, const Options& options)
@@ -233,57 +156,72 @@ PhotonMap::PhotonMap(gpu::Context& context, const cloud::Asset& cloud, const Med
     for (std::size_t i = 0; i < cloud.collectors.size(); ++i)
         places.emplace_back(cloud.collectors[i].centre, static_cast<float>(mass[i]));
     gpu::upload(context, s.places, places);
-    if (s.slots.empty()) return;
-    s.commands.begin();
-    for (Buffer& slot : s.slots) s.commands.fill(slot, 0);
-    s.commands.submit();
-    s.commands.wait();
 }
 
 PhotonMap::PhotonMap(PhotonMap&&) noexcept = default;
 PhotonMap::~PhotonMap() = default;
 
-void PhotonMap::trace(const scene::Sun& sun, const sky::Environment& environment, std::optional<double> extinctionNow) {
+void PhotonMap::trace(const scene::Sun& sun, const sky::Environment& environment, std::optional<double> extinction) {
+    if (tryTrace(sun, environment, {}, extinction)) keep();
+}
+
+bool PhotonMap::tryTrace(const scene::Sun& sun, const sky::Environment& environment, const CutOff& cutOff,
+                         std::optional<double> extinction) {
     State& s = *state_;
-    const double extinction = extinctionNow.value_or(s.medium.extinction);
+    s.newExtinction = extinction.value_or(s.medium.extinction);
     const Emission emission = makeEmission(sun, environment, s.tracer.faceArea());
-    int unitExponent = 0;
+    s.before = State::Before{s.flux, s.sunDirection, s.counters};
     s.flux = luminance(emission.sunFlux + emission.skyFlux);
-    if (!emission.dark()) {
-        const double most = std::max(maxChannel(emission.sunPower(s.options.photonsPerGeneration)),
-                                     maxChannel(emission.skyPower(s.options.photonsPerGeneration)));
-        if (!s.hasUnit) {
-            s.baseExponent = exponentAbove(greatestFlux(sun, emission, s.tracer.faceArea())) - unitBits;
-            s.hasUnit = true;
-        }
-        unitExponent = exponentAbove(most / static_cast<double>(shared::POWER_UNITS));
-        const int finer = -s.shiftOf(unitExponent);
-        if (finer > 0 && finer <= sparedBits) unitExponent += finer;
-        s.makeRoom(unitExponent);
-        s.tracer.trace(emission, sun, extinction, unitExponent, static_cast<std::uint32_t>(s.traced), s.target(),
-                       s.counters, s.unsettledRecords, s.log);
-    } else if (s.options.keepRing) {
-        s.makeRoom(unitExponent);  // the oldest generation gives way to an empty one
+    s.sunDirection = -sun.directionTo;
+    if (emission.dark()) {
+        s.sums.beginDark();
+        return true;
     }
-    ++s.traced;
-    s.ringExtinctions.push_back(extinction / s.medium.extinction);
-    if (s.options.keepRing && s.traced > s.options.generations) s.ringExtinctions.pop_front();
-    if (s.options.keepRing) s.settle();
+    try {
+        if (s.traceLit(emission, sun, cutOff)) return true;
+    } catch (...) {
+        drop();
+        throw;
+    }
+    drop();
+    return false;
+}
+
+void PhotonMap::keep() {
+    State& s = *state_;
+    s.sums.keep();
+    s.before.reset();
+    s.ringExtinctions.push_back(s.newExtinction / s.medium.extinction);
+    if (s.options.keepRing && s.sums.kept() > s.options.generations) s.ringExtinctions.pop_front();
+}
+
+void PhotonMap::drop() {
+    State& s = *state_;
+    s.sums.drop();
+    if (!s.before) return;
+    s.flux = s.before->flux;
+    s.sunDirection = s.before->sunDirection;
+    s.counters = s.before->counters;
+    s.before.reset();
+}
+
+std::uint64_t PhotonMap::shrinkGenerations(std::uint64_t divisor, std::uint64_t fewest) {
+    State& s = *state_;
+    assert(s.sums.kept() == 0);
+    std::uint64_t& photons = s.options.photonsPerGeneration;
+    photons = std::min(photons, std::max(fewest, photons / divisor));
+    s.tracer.setPhotons(photons);
+    return photons;
 }
 
 Light PhotonMap::light(Part part) {
     State& s = *state_;
-    if (part == Part::all) {
-        // Σ c over Σ M: equal extinctions give exactly the number of generations
-        const double masses = std::accumulate(s.ringExtinctions.begin(), s.ringExtinctions.end(), 0.0);
-        const double generations = masses > 0.0 ? masses : 1.0;
-        settle();
-        if (s.isAllUnsettled()) return {&s.generation, s.unsettledUnit() / generations};
-        return {&s.startedSum(), unit() / generations};
-    }
-    const bool even = part == Part::even;
-    return {even ? &s.generation : &s.oddGeneration,
-            s.unsettledUnit() / (even ? s.splitCounts.even : s.splitCounts.odd)};
+    if (part != Part::all) return s.sums.half(part == Part::even);
+    // Σ c over Σ M: equal extinctions give exactly the number of generations
+    const double masses = std::accumulate(s.ringExtinctions.begin(), s.ringExtinctions.end(), 0.0);
+    settle();
+    const Light sum = s.sums.all();
+    return {sum.counts, sum.unit / (masses > 0.0 ? masses : 1.0)};
 }
 
 void PhotonMap::reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, const Light& light) {
@@ -293,18 +231,23 @@ void PhotonMap::reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, 
     push.scale = static_cast<float>(light.unit);
     push.eye = eyeVoxel;
     push.voxelToWorld = glm::mat3(s.cloud.voxelToMetres);
+    push.sunDirection = glm::vec3(s.sunDirection);
+    push.axisBase = estimatorBase() + shared::estimatorCounts(s.options.estimates.cells);
+    push.angleScale = s.medium.tables.angleScale;
     commands.pass("reconstruct");
     commands.dispatch(s.reconstructProgram,
                       {{"Sum", *light.counts},
                        {"Moments", s.moments},
                        {"Collectors", s.places},
                        {"fluences", s.fluences},
-                       {"radiance", s.radiance}},
+                       {"radiance", s.radiance},
+                       {"colours", s.colours},
+                       {"AxisTable", s.axisTable}},
                       push, linearGroups(s.collectors, 64));
 }
 
 void PhotonMap::settle() {
-    if (!state_->isAllUnsettled()) state_->settle();
+    state_->sums.settle();
 }
 
 const gpu::Image& PhotonMap::radiance() const {
@@ -313,48 +256,57 @@ const gpu::Image& PhotonMap::radiance() const {
 const gpu::Image& PhotonMap::fluences() const {
     return state_->fluences;
 }
+const gpu::Image& PhotonMap::colours() const {
+    return state_->colours;
+}
 int PhotonMap::generationsInRing() const {
-    return state_->options.keepRing ? std::min(state_->traced, state_->options.generations) : state_->traced;
+    const int kept = state_->sums.kept();
+    return state_->options.keepRing ? std::min(kept, state_->options.generations) : kept;
 }
 SplitCounts PhotonMap::splitCounts() const {
-    return state_->splitCounts;
+    return state_->sums.splitCounts();
 }
 std::uint32_t PhotonMap::estimatorBase() const {
-    return state_->coefficients - shared::estimatorCounts(state_->options.estimates.cells);
+    return state_->collectors * 3U * static_cast<std::uint32_t>(state_->options.bands * state_->options.bands);
 }
 double PhotonMap::photonPower() const {
     const double photons = static_cast<double>(state_->options.photonsPerGeneration) * std::max(1, generationsInRing());
     return state_->flux / photons;
 }
 std::uint64_t PhotonMap::firstInRing() const {
-    return state_->options.firstGeneration + static_cast<std::uint64_t>(state_->traced - generationsInRing());
+    return state_->options.firstGeneration + static_cast<std::uint64_t>(state_->sums.kept() - generationsInRing());
 }
 std::uint64_t PhotonMap::photonsInRing() const {
     return state_->options.photonsPerGeneration * static_cast<std::uint64_t>(generationsInRing());
 }
-const Counters& PhotonMap::counters() const {
-    return state_->counters;
+Counters PhotonMap::counters() const {
+    Counters counters = state_->counters;
+    counters.saturated = state_->sums.saturated();
+    return counters;
 }
 std::vector<gpu::PassTime> PhotonMap::times() const {
-    return state_->log.times;
+    std::vector<gpu::PassTime> times = state_->log.times;
+    const std::vector<gpu::PassTime>& sums = state_->sums.log().times;
+    times.insert(times.end(), sums.begin(), sums.end());
+    return times;
 }
 const std::vector<gpu::Step>& PhotonMap::steps() const {
     return state_->log.steps;
 }
 double PhotonMap::unit() const {
-    return std::ldexp(1.0, state_->baseExponent);
+    return std::ldexp(1.0, state_->sums.baseExponent());
 }
 
 std::vector<std::int64_t> PhotonMap::downloadSum() {
-    state_->settle();
-    auto values = gpu::download<std::int64_t>(state_->context, state_->startedSum());
-    values.resize(state_->coefficients);
+    state_->sums.settleAll();
+    auto values = gpu::download<std::int64_t>(state_->context, state_->sums.startedSum());
+    values.resize(state_->sums.coefficients());
     return values;
 }
 
 std::vector<std::int64_t> PhotonMap::downloadSlot(int slot) const {
-    auto values = gpu::download<std::int64_t>(state_->context, state_->slots.at(static_cast<std::size_t>(slot)));
-    values.resize(state_->coefficients);
+    auto values = gpu::download<std::int64_t>(state_->context, state_->sums.slots().at(static_cast<std::size_t>(slot)));
+    values.resize(state_->sums.coefficients());
     return values;
 }
 

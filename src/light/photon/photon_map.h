@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/cut_off.h"
 #include "base/interrupt.h"
 #include "cloud/asset.h"
 #include "gpu/commands.h"
@@ -35,8 +36,9 @@ struct Options {
     /// noisy a picture of all is. Not with a ring.
     bool splitGenerations = false;
     std::uint64_t memoryBudget = std::uint64_t{1} << 30U;  ///< bytes for all coefficients
-    Check check =
-        stopIfInterrupted;  ///< asked between the rounds of a generation; a map in which it threw is of no more use
+    /// Asked between the rounds of a generation, and may throw. Then a map with a ring has the light of before; one
+    /// without is of no more use.
+    Check check = stopIfInterrupted;
 };
 
 /// Sums over all generations traced.
@@ -58,8 +60,9 @@ struct Light {
     double unit = 0.0;
 };
 
-/// The photon map: a ring of generations, each [collector][RGB][bands²] int64 of spherical-harmonic coefficients and
-/// then the estimates (shared/collision_estimator.h), int64, and their exact sum.
+/// The photon map: a ring of generations, each [collector][RGB][bands²] int64 of spherical-harmonic coefficients, then
+/// the estimates (shared/collision_estimator.h) and, where the phase function has a backward peak, the rings about the
+/// sun's axis (shared/sun_axis.h), int64, and their exact sum.
 class PhotonMap {
   public:
     /// `cloud` must outlive the map. Collectors' masses are those of `medium.extinction`. Errors: InputError where the
@@ -73,6 +76,19 @@ class PhotonMap {
     /// needs keepRing. Radiance is the mean over the ring, each generation weighted by its extinction.
     void trace(const scene::Sun& sun, const sky::Environment& environment, std::optional<double> extinction = {});
 
+    /// Traces one generation that `cutOff` may end. Returns whether it was finished; else nothing is left of it. A
+    /// finished one waits for keep() or drop(), and the map has the light of before until then. Without a ring, the
+    /// first that may be cut off beside others takes the memory of one generation more until they are settled.
+    bool tryTrace(const scene::Sun& sun, const sky::Environment& environment, const CutOff& cutOff,
+                  std::optional<double> extinction = {});
+    /// Takes the generation of tryTrace() into the oldest slot.
+    void keep();
+    /// Takes the generation of tryTrace() out again; does nothing where there is none.
+    void drop();
+    /// Divides the photons of a generation by `divisor`, down to `fewest` or what there are. Only before the first
+    /// generation is kept. Returns the photons of a generation.
+    std::uint64_t shrinkGenerations(std::uint64_t divisor, std::uint64_t fewest);
+
     /// Adds what has been traced to the sum, unless the sum would be a copy of the one buffer that holds it all.
     void settle();
 
@@ -83,9 +99,10 @@ class PhotonMap {
 
     /// Radiance of every collector towards the eye, and its light of all directions [W·m⁻²]: recorded into `commands`.
     void reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, const Light& light);
-    /// At collectorTexel(): RGB and 1; flux and fluence of the luminance, whatever the eye.
+    /// At collectorTexel(): RGB and 1; flux and fluence of the luminance, and fluence of RGB, whatever the eye.
     const gpu::Image& radiance() const;
     const gpu::Image& fluences() const;
+    const gpu::Image& colours() const;
 
     /// Where the estimates begin in the counts.
     std::uint32_t estimatorBase() const;
@@ -97,7 +114,7 @@ class PhotonMap {
     /// Number of the oldest generation in the ring; where nothing was traced, of the next.
     std::uint64_t firstInRing() const;
     std::uint64_t photonsInRing() const;
-    const Counters& counters() const;
+    Counters counters() const;
     /// Milliseconds of each pass, summed, in the order of the passes.
     std::vector<gpu::PassTime> times() const;
     /// Steps of the last round that was recorded.

@@ -21,7 +21,8 @@ std::vector<gpu::SpecConstant> traceConstants(const phase::ScatteringTables& tab
                                               bool periodic) {
     const bool absorbs = std::min(albedo.x, std::min(albedo.y, albedo.z)) < 1.0;
     return {gpu::SpecConstant::of(0, tables.analyticHg), gpu::SpecConstant::of(1, tables.forwardFraction > 0.0F),
-            gpu::SpecConstant::of(2, absorbs), gpu::SpecConstant::of(3, periodic)};
+            gpu::SpecConstant::of(2, absorbs), gpu::SpecConstant::of(3, periodic),
+            gpu::SpecConstant::of(4, !periodic && !tables.axisTable.empty())};
 }
 
 void setFaces(shared::TraceParams& p, const glm::dmat3& faceArea) {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <functional>
+
+namespace lumulus {
+
+/// When to give up a generation of photons that takes too long. It is asked between the rounds of the walk, after the
+/// first one: a generation that ends within one round is never given up.
+struct CutOff {
+    std::function<bool()> due;  ///< returns whether the time is over; empty: never
+    /// What to do with photons on their way: drop the generation, so that the light of before stays (false), or keep it
+    /// and count them as lost (true). Their light is missing then: for when a picture with too little light is better
+    /// than one with none. Needs generations of few photons, so that all of them start in the first round.
+    bool keepUnfinished = false;
+
+    bool isDue() const { return due && due(); }
+};
+
+}  // namespace lumulus
