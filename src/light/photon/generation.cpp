@@ -37,9 +37,9 @@ constexpr unsigned leastCores = 2, mostCores = 16;
 constexpr std::uint32_t sortRows = 16;
 /// Steps of an invocation in one round: a round ends within tenths of a second, so that work can end between two.
 constexpr std::uint32_t stepLimit = 1U << 13U;
-/// A photon that collides more often is counted as lost. Optical depth 1e6 with albedo 1 stays below it.
 /// Seconds after which the next rounds of a generation get fewer steps.
 constexpr double longRound = 0.08;
+/// A photon that collides more often is counted as lost. Optical depth 1e6 with albedo 1 stays below it.
 constexpr std::uint32_t collisionLimit = 1U << 24U;
 
 std::uint32_t invocationsFor(const gpu::Context& context, std::uint64_t photons) {
