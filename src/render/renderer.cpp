@@ -60,7 +60,8 @@ Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
     s.statistics.device = s.context.device().name;
     if (!scene.fog.media.empty()) s.fog.emplace(s.context, scene.fog, s.check);
     WorldReport report;
-    s.world.emplace(makeWorld(s.context, scene, {options.keepRing, options.progressive, s.report, s.check}, report));
+    s.world.emplace(makeWorld(s.context, scene,
+                              {options.keepRing, options.progressive, s.report, options.loaded, s.check}, report));
     s.statistics.warnings = std::move(report.warnings);
     s.statistics.clouds = std::move(report.clouds);
     s.statistics.loadSeconds = report.loadSeconds;

@@ -41,6 +41,7 @@ struct WorldOptions {
     bool keepRing = false;
     bool progressive = false;
     Report report = noReport;
+    ToldOfClouds loaded{};
     Check check = stopIfInterrupted;
 };
 
