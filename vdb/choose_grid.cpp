@@ -13,9 +13,10 @@
 namespace lumulus::vdb {
 namespace {
 
+/// A name between quotes, with the spaces that it begins or ends with.
 std::string quoted(const std::string& name) {
     constexpr std::size_t longest = 80;
-    return fmt::format("\"{}\"", shortened(oneLine(name), longest));
+    return shortened(oneLine("\"" + name + "\""), longest);
 }
 
 /// `density[1]` as a name and a number.
@@ -64,7 +65,9 @@ class Chooser {
         } else if (rank(chosen) == otherQuantity) {
             warn(fmt::format("no grid has the name of a density: grid {} is taken as one; {} chooses another of {}",
                              quoted(grids_[chosen].name), key_, list()));
-        } else if (grids_[chosen].name != "density") {
+        } else if (rank(chosen) == 0 && grids_[chosen].name != "density") {
+            warn(fmt::format("grid {} is taken as \"density\"", quoted(grids_[chosen].name)));
+        } else if (rank(chosen) > 0) {
             warn(fmt::format("no grid is called \"density\": grid {} is taken; {} chooses another of {}",
                              quoted(grids_[chosen].name), key_, list()));
         }

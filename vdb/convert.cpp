@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -15,6 +16,11 @@
 
 namespace lumulus::vdb {
 namespace {
+
+/// "1 voxel", "2 negative voxels".
+std::string counted(std::uint64_t count, std::string_view kind = "") {
+    return fmt::format("{} {}voxel{}", count, kind, count == 1 ? "" : "s");
+}
 
 /// MiB of a volume at 2 bytes a voxel.
 double mebibytes(const glm::i64vec3& extent, std::int64_t n) {
@@ -53,9 +59,10 @@ class Converter {
     LoadResult convert(openvdb::FloatTree& tree) {
         SparseField field = listBlocks(tree);
         const Survey survey = surveyField(field);
+        hasActive_ = tree.activeVoxelCount() > 0;
         warnOfBackground(static_cast<double>(tree.background()));
         mendValues(survey, field);
-        const IndexBox box = cropped(survey, field);
+        const IndexBox box = cropped(survey);
         const std::int64_t n = fitLimits(box, survey);
         std::string name = std::move(result_.volume.name);
         result_.wantedMiB = wantedMiB(box, options_.maxExtent);
@@ -82,11 +89,11 @@ class Converter {
         if (!options_.clamp && survey.firstOfThem) refuse(*survey.firstOfThem, survey);
         if (!options_.clamp && lowest < -tolerated * maximum) refuse(*survey.lowest, survey);
         if (survey.negatives > 0)
-            warn(fmt::format("{} has {} negative voxels, the smallest {:g}: they become 0", grid_, survey.negatives,
+            warn(fmt::format("{} has {}, the smallest {:g}: set to 0", grid_, counted(survey.negatives, "negative "),
                              lowest));
         if (survey.notFinite > 0)
-            warn(fmt::format("{} has {} voxels that are infinite or not a number: they become 0", grid_,
-                             survey.notFinite));
+            warn(
+                fmt::format("{} has {} that are infinite or not a number: set to 0", grid_, counted(survey.notFinite)));
         if (survey.negatives + survey.notFinite > 0) clampValues(field);
     }
 
@@ -95,23 +102,22 @@ class Converter {
         throw InputError(
             fmt::format("{} holds the value {} at voxel ({}, {}, {})", grid_, bad.value, bad.at.x, bad.at.y, bad.at.z),
             file_,
-            fmt::format("densities are finite and not negative{}; {}.clamp = true makes {} such voxels 0",
+            fmt::format("densities are finite and not negative{}; {}.clamp = true sets {} to 0",
                         distances ? " (a level set has to become a fog volume, with OpenVDB's sdfToFogVolume)" : "",
-                        options_.keys, survey.notFinite + survey.negatives));
+                        options_.keys, counted(survey.notFinite + survey.negatives)));
     }
 
     /// The box that becomes the volume.
-    IndexBox cropped(const Survey& survey, const SparseField& field) {
+    IndexBox cropped(const Survey& survey) {
         if (survey.occupied.empty()) {
             warn(fmt::format("{} {}: the cloud is empty", grid_,
-                             field.blocks.empty() ? "has no active voxels" : "is zero everywhere"));
+                             hasActive_ ? "is zero everywhere" : "has no active voxels"));
             return {glm::ivec3(0), glm::ivec3(0)};
         }
         const Apart apart = findApart(survey);
         if (apart.voxels > 0)
-            warn(
-                fmt::format("{}: {} voxels with {:.2g} of its mass lie apart, as voxel ({}, {}, {}): they are left out",
-                            grid_, apart.voxels, apart.share, apart.at.x, apart.at.y, apart.at.z));
+            warn(fmt::format("{}: {} with {:.2g} of its mass, far from the rest, left out: one at ({}, {}, {})", grid_,
+                             counted(apart.voxels), apart.share, apart.at.x, apart.at.y, apart.at.z));
         return apart.kept;
     }
 
@@ -158,6 +164,7 @@ class Converter {
     const LoadOptions& options_;
     const std::string& file_;
     std::string grid_;  ///< with its name, for messages
+    bool hasActive_ = false;
     LoadResult result_;
 };
 

@@ -131,9 +131,12 @@ void runRender(const RenderOptions& options) {
     Steps steps(options.quiet);
     RendererOptions how{options.device, options.validate, steps.reporter()};
     how.progressive = progressive(options);
+    std::size_t told = 0;  // warnings
+    how.loaded = [&](std::span<const CloudSummary> clouds, std::span<const std::string> warnings) {
+        tellClouds(clouds, warnings, options.quiet);
+        told = warnings.size();
+    };
     Renderer renderer(scene, how);
-    const std::vector<std::string> told = renderer.statistics().warnings;
-    tellClouds(renderer.statistics().clouds, told, options.quiet);
     std::optional<ProgressiveStatistics> reached;
     if (progressive(options))
         reached = traceProgressively(renderer, options, scene, start, steps);
@@ -143,7 +146,7 @@ void runRender(const RenderOptions& options) {
     LayeredImage image = renderer.draw();
     stopIfInterrupted();
     const Statistics statistics = renderer.statistics();
-    for (const std::string& warning : std::span(statistics.warnings).subspan(told.size())) logWarning(warning);
+    for (const std::string& warning : std::span(statistics.warnings).subspan(told)) logWarning(warning);
 
     image.attributes["scene"] = scene.source;
     image.attributes["seed"] = std::to_string(scene.photonMap.seed);

@@ -60,7 +60,8 @@ Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
           std::make_shared<gpu::Context>(gpu::ContextOptions{options.device, options.validation}))) {
     State& s = *state_;
     WorldReport report;
-    s.world.emplace(makeWorld(s.context, scene, {options.keepRing, options.progressive, s.report, s.check}, report));
+    s.world.emplace(makeWorld(s.context, scene,
+                              {options.keepRing, options.progressive, s.report, options.loaded, s.check}, report));
     s.statistics.warnings = std::move(report.warnings);
     s.statistics.clouds = std::move(report.clouds);
     s.statistics.loadSeconds = report.loadSeconds;

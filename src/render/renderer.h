@@ -27,6 +27,7 @@ struct RendererOptions {
     /// The photons are not counted beforehand: generations may go on beyond the scene's, and preview() can be asked.
     /// Not with a ring.
     bool progressive = false;
+    ToldOfClouds loaded{};  ///< told of the clouds before any work on them, which can take long
 };
 
 /// What `--stats` reports.

@@ -99,6 +99,7 @@ CloudVolumes Maker::load() {
     CloudVolumes volumes = loadClouds(scene_, options_.report);
     report_.warnings = std::move(volumes.warnings);
     report_.clouds = summarise(scene_, volumes);
+    if (options_.loaded) options_.loaded(report_.clouds, report_.warnings);
     std::vector<Bounds> bounds;
     for (const vdb::PlacedVolume& placed : volumes.placed()) {
         const std::size_t number = world_.instances.size();

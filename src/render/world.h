@@ -43,6 +43,7 @@ struct WorldOptions {
     bool keepRing = false;
     bool progressive = false;
     Report report = noReport;
+    ToldOfClouds loaded{};
     Check check = stopIfInterrupted;
 };
 

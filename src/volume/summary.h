@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ struct CloudSummary {
     double largestThickness = 0.0;  ///< optical thickness, the largest along the axes of the grid …
     double meanThickness = 0.0;     ///< … and its mean over the columns of voxels that meet the cloud
 };
+
+/// A function that is told of a scene's clouds as soon as they are loaded, with what is warned of by then.
+using ToldOfClouds = std::function<void(std::span<const CloudSummary> clouds, std::span<const std::string> warnings)>;
 
 /// One for each cloud of the scene, in its order.
 std::vector<CloudSummary> summarise(const scene::Scene& scene, const CloudVolumes& volumes);

@@ -105,6 +105,7 @@ TEST(SceneFile, EveryKeyArrives) {
     Cloud cloud;
     cloud.procedural = "sphere";
     cloud.grid = "density";
+    cloud.clamp = true;
     cloud.resolution = 32;
     cloud.seed = 9;
     cloud.transform = glm::dmat4{{0, 2, 0, 0}, {-2, 0, 0, 0}, {0, 0, 2, 0}, {10, 20, 30, 1}};

@@ -70,7 +70,9 @@ TEST(GridChoice, WarnsUnlessTheGridIsCalledDensity) {
     EXPECT_THAT(
         choose(named({"heat", "smoke"})).warnings,
         ElementsAre(AllOf(HasSubstr("grid \"smoke\" is taken"), HasSubstr("cloud.0.grid"), HasSubstr("\"heat\""))));
-    EXPECT_THAT(choose(named({"Density"})).warnings, ElementsAre(HasSubstr("grid \"Density\" is taken")));
+    EXPECT_THAT(choose(named({"Density"})).warnings,
+                ElementsAre(HasSubstr("grid \"Density\" is taken as \"density\"")));
+    EXPECT_THAT(choose(named({"density "})).warnings, ElementsAre(HasSubstr("grid \"density \" is taken")));
     EXPECT_THAT(choose(named({"vel.x", "vel.y"})).warnings,
                 ElementsAre(HasSubstr("no grid has the name of a density: grid \"vel.x\"")));
     EXPECT_THAT(choose(named({"heat", "smoke"}), "heat").warnings, IsEmpty()) << "it was asked for";

@@ -113,6 +113,9 @@ TEST_F(Load, NothingActiveIsAnEmptyCloud) {
     EXPECT_EQ(nothing.volume.size, glm::ivec3(3));
     ASSERT_EQ(nothing.warnings.size(), 1U);
     EXPECT_NE(nothing.warnings[0].find("no active voxels"), std::string::npos);
+    const auto off = makeBlob({0, 0, 0});
+    for (auto value = off->beginValueOn(); value; ++value) value.setValueOff();
+    EXPECT_NE(loadGrid(off).warnings.at(0).find("no active voxels"), std::string::npos);
 
     const auto grid = makeGrid();
     grid->fill(CoordBBox(Coord(0), Coord(20)), 0.0F, true);

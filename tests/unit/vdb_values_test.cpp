@@ -89,7 +89,7 @@ TEST_F(Values, ClampMakesThemZero) {
     vdb::LoadOptions options;
     options.clamp = true;
     const auto loaded = loadGrid(grid, options);
-    EXPECT_THAT(loaded.warnings, ElementsAre(AllOf(HasSubstr("1 negative"), HasSubstr("-5")),
+    EXPECT_THAT(loaded.warnings, ElementsAre(AllOf(HasSubstr("1 negative voxel,"), HasSubstr("-5")),
                                              HasSubstr("515 voxels that are infinite or not a number")));
     EXPECT_EQ(loaded.volume.size, glm::ivec3(12));
     EXPECT_DOUBLE_EQ(mass(loaded.volume), 2.0 * 996);
@@ -123,7 +123,7 @@ TEST_F(Values, SpecksFarAwayAreLeftOut) {
     EXPECT_DOUBLE_EQ(mass(loaded.volume), 2000.0);
     EXPECT_EQ(loaded.volume.toWorld.point({1.5, 1.5, 1.5}), glm::dvec3(0.0));
     EXPECT_THAT(loaded.warnings,
-                ElementsAre(AllOf(HasSubstr("3 voxels with 5e-07 of its mass lie apart"), HasSubstr("left out"))));
+                ElementsAre(AllOf(HasSubstr("3 voxels with 5e-07 of its mass"), HasSubstr("left out"))));
 }
 
 TEST_F(Values, WhatWeighsMoreIsKept) {
