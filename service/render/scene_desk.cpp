@@ -52,7 +52,10 @@ std::vector<SceneLoader::LoadJob> SceneDesk::close() {
 /// A scene that is held, or will be: who asks for the default scene waits for it.
 SlotPointer SceneDesk::find(const std::string& key) {
     std::unique_lock lock(host_.mutex);
-    if (default_ && default_->key() == key) defaultEnded_.wait(lock, [this] { return !defaultPending_; });
+    if (default_ && default_->key() == key && defaultPending_) {
+        defaultEnded_.wait(lock, [this] { return !defaultPending_; });
+        if (!host_.scenes.hasDefault()) throw Cancelled{};  // the service ends
+    }
     return host_.scenes.find(key);
 }
 
