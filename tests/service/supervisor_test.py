@@ -1,5 +1,6 @@
 """What those who watch the service see: /health, /ready, systemd's notifications, the end in time, the unit file."""
 
+import datetime
 import hashlib
 import os
 import socket
@@ -168,9 +169,11 @@ class Ending(unittest.TestCase):
             digest = hashlib.sha256(bytes(4 << 20)).hexdigest()
             busy[3].send("upload", {"hash": "sha256:" + digest, "size": 4 << 20, "offset": 0}, bytes(1 << 20))
             time.sleep(1)
-            started = time.monotonic()
-            self.assertEqual(server.stop(30), 0)
-            self.assertLess(time.monotonic() - started, 3 + 4)
+            self.assertEqual(server.stop(60), 0)
+            # by the clock of the server, which shares its cores with all of the above: answered by then, and gone soon after
+            times = {event["event"]: datetime.datetime.fromisoformat(event["time"]) for event in server.log if "time" in event}
+            drained = (times["stopped"] - times["shutting_down"]).total_seconds()
+            self.assertLess(drained, 3 + 2)
         finally:
             stop.set()
             for thread in threads:
