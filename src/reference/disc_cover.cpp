@@ -38,9 +38,9 @@ DiscCover::DiscCover(const Camera& camera, const glm::dvec3& sunDirection, doubl
             const double whole = solidAngle({x, y}, 1.0, reach > 0.05 ? 64 : 4);
             // all rays of an orthographic view have one direction, and pixels no solid angle
             pixel.share = whole > 0.0 ? std::min(1.0, pixel.squares.back().before / whole) : 1.0;
-            pixels_.emplace(static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) +
-                                static_cast<std::size_t>(x),
-                            std::move(pixel));
+            pixels_.emplace(
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(x),
+                std::move(pixel));
         }
 }
 
@@ -55,9 +55,8 @@ void DiscCover::divide(const glm::dvec2& corner, double edge, Pixel& pixel) cons
     const glm::dvec3 middle = camera_.ray(corner.x + 0.5 * edge, corner.y + 0.5 * edge).direction;
     double reach = 0.0;
     for (int i = 0; i < 4; ++i)
-        reach = std::max(reach, angleBetween(middle, camera_.ray(corner.x + (i & 1) * edge,
-                                                                 corner.y + (i >> 1) * edge)
-                                                         .direction));
+        reach = std::max(
+            reach, angleBetween(middle, camera_.ray(corner.x + (i & 1) * edge, corner.y + (i >> 1) * edge).direction));
     const double away = angleBetween(middle, sunDirection_);
     if (away > radius_ + bulge * reach) return;
     const bool rim = away > radius_ - bulge * reach;

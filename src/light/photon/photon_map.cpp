@@ -61,8 +61,7 @@ gpu::Image collectorImage(gpu::Context& context, const char* name, std::uint32_t
 /// Of all collectors together, where there is room for them.
 std::uint32_t coefficientsOf(const gpu::Context& context, std::uint32_t collectors, const Medium& medium,
                              const Options& options) {
-    const std::uint64_t rings =
-        medium.tables.axisTable.empty() ? 0 : std::uint64_t{collectors} * shared::AXIS_COUNTS;
+    const std::uint64_t rings = medium.tables.axisTable.empty() ? 0 : std::uint64_t{collectors} * shared::AXIS_COUNTS;
     const MapSize size{collectors,
                        options.bands,
                        options.generations,
@@ -119,9 +118,8 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Asset& preparedCl
       collectors(static_cast<std::uint32_t>(cloud.collectors.size())),
       sums(context, options, coefficientsOf(context, collectors, medium, options)),
       tracer(context, cloud, medium, options),
-      reconstructProgram(
-          context, "reconstruct", spirv::reconstruct_comp,
-          {SpecConstant::of(0, options.bands), SpecConstant::of(1, !medium.tables.axisTable.empty())}),
+      reconstructProgram(context, "reconstruct", spirv::reconstruct_comp,
+                         {SpecConstant::of(0, options.bands), SpecConstant::of(1, !medium.tables.axisTable.empty())}),
       moments(context, "band moments", medium.tables.bandMoments.size() * sizeof(float), Memory::device),
       places(context, "collector places", collectors * sizeof(glm::vec4), Memory::device),
       axisTable(context, "axis table", std::max<std::size_t>(1, medium.tables.axisTable.size()) * sizeof(float),
