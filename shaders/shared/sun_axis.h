@@ -1,6 +1,7 @@
 // Rings about the sun's axis. Where a phase function has a backward peak, the sun's light goes to and fro along its
 // axis, in lobes that are too narrow for the bands of a collector. There the sun's photons are counted in rings about
-// both ends of the axis too: sharp in angle, and the same all round. Bands above those of the collectors come from them.
+// both ends of the axis too: sharp in angle, and the same all round. Bands above those of the collectors come from
+// them.
 #ifndef LUMULUS_SHARED_SUN_AXIS_H
 #define LUMULUS_SHARED_SUN_AXIS_H
 

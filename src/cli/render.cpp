@@ -82,14 +82,16 @@ ProgressiveStatistics traceProgressively(Renderer& renderer, const RenderOptions
     const auto reached = progressive::traceUntil(
         renderer, goal, [start] { return secondsSince(start); }, steps.reporter());
     if (reached.unfinished)
-        logWarning(fmt::format("{:g} s were too short for a single generation: of {} photons some were on their way and "
-                               "are given up, and the cloud is too dark; it is optically thick: lower cloud.0.extinction "
-                               "or cloud.0.density_scale, or give it more time",
-                               *options.seconds, reached.photonsEach));
+        logWarning(
+            fmt::format("{:g} s were too short for a single generation: of {} photons some were on their way and "
+                        "are given up, and the cloud is too dark; it is optically thick: lower cloud.0.extinction "
+                        "or cloud.0.density_scale, or give it more time",
+                        *options.seconds, reached.photonsEach));
     else if (reached.photonsEach > 0)
-        logWarning(fmt::format("photons scatter very often in this scene: a generation has {} of them, so that it ends in "
-                               "time",
-                               reached.photonsEach));
+        logWarning(
+            fmt::format("photons scatter very often in this scene: a generation has {} of them, so that it ends in "
+                        "time",
+                        reached.photonsEach));
     return {progressive::nameOf(reached.stop), reached.noise,
             progressive::biasEstimate(scene, renderer.statistics().photons), reached.previewSeconds};
 }

@@ -47,7 +47,8 @@ std::vector<shared::SunPixel> sunPixels(const Camera& camera, const Tile& tile, 
     std::vector<shared::SunPixel> pixels;
     if (!(disc > 0.0) || sun.irradiance == glm::dvec3(0.0)) return pixels;
     for (const CoveredPixel& covered : sunCover(camera, tile, sun.directionTo, radius))
-        pixels.push_back({covered.pixel - glm::ivec2(tile.x, tile.y), glm::vec3(covered.share * sun.irradiance / disc)});
+        pixels.push_back(
+            {covered.pixel - glm::ivec2(tile.x, tile.y), glm::vec3(covered.share * sun.irradiance / disc)});
     return pixels;
 }
 

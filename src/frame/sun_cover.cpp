@@ -82,8 +82,7 @@ class Panorama {
     /// Azimuths to each side of the middle that lie in the disc (law of haversines).
     double halfWidth(double elevation) const {
         const auto squared = [](double x) { return x * x; };
-        const double inside =
-            squared(std::sin(0.5 * radius_)) - squared(std::sin(0.5 * (elevation - elevation_)));
+        const double inside = squared(std::sin(0.5 * radius_)) - squared(std::sin(0.5 * (elevation - elevation_)));
         const double cosines = std::cos(elevation) * std::cos(elevation_);
         if (inside <= 0.0) return 0.0;
         return cosines > inside ? 2.0 * std::asin(std::sqrt(inside / cosines)) : pi;
@@ -109,15 +108,13 @@ class Plane {
     Span extent() const {
         const double least = cosine_ * cosine_ - sun_.x * sun_.x;
         if (least <= 0.0) return {-endless, endless};
-        return solve(sun_.y * sun_.y - least, sun_.y * sun_.z, sun_.z * sun_.z - least, sun_.y > 0.0)
-            .value_or(Span{});
+        return solve(sun_.y * sun_.y - least, sun_.y * sun_.z, sun_.z * sun_.z - least, sun_.y > 0.0).value_or(Span{});
     }
 
     template <class Add>
     void addStrip(double up, double height, const Add& add) const {
         const double along = up * sun_.y + sun_.z, away = 1.0 + up * up, c2 = cosine_ * cosine_;
-        const auto found =
-            solve(sun_.x * sun_.x - c2, sun_.x * along, along * along - c2 * away, sun_.x > 0.0);
+        const auto found = solve(sun_.x * sun_.x - c2, sun_.x * along, along * along - c2 * away, sun_.x > 0.0);
         if (!found) return;
         const Span seen = overlap(*found, {acrossOf(0), acrossOf(size_.x)});
         // the other half of the double cone lies behind the eye

@@ -37,8 +37,8 @@ bool isFlat(const glm::dmat3& voxelToMetres) {
     return std::max(edges.x, std::max(edges.y, edges.z)) > flat * std::min(edges.x, std::min(edges.y, edges.z));
 }
 
-/// Columns of a sheared grid: two voxel axes, and the light from one layer of voxels to the next along the third, the one
-/// along which it crosses the most. Texels are as fine as the voxels, whatever their shape.
+/// Columns of a sheared grid: two voxel axes, and the light from one layer of voxels to the next along the third, the
+/// one along which it crosses the most. Texels are as fine as the voxels, whatever their shape.
 ShadowGrid layeredGrid(const cloud::Asset& cloud, const glm::dvec3& sunTravel, double most, int reduction) {
     const glm::dvec3 travel = glm::inverse(cloud.voxelToMetres) * sunTravel;
     int along = 0;

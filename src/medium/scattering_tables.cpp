@@ -43,8 +43,8 @@ void addSingleScattering(ScatteringTables& tables, const PhaseFunction& phase, d
     tables.extinctionScale = glm::vec3(extinctionScale);
 }
 
-/// Bands of a collector that are used where there are rings. A backward peak hands all bands on, noise included, and noise
-/// below zero is cut off: more bands make pictures too bright (docs/experiments/backward-peak.md).
+/// Bands of a collector that are used where there are rings. A backward peak hands all bands on, noise included, and
+/// noise below zero is cut off: more bands make pictures too bright (docs/experiments/backward-peak.md).
 constexpr int bandsBesideRings = 3;
 
 void addAxisTable(ScatteringTables& tables, const scene::Phase& phase, int bands) {
@@ -52,7 +52,8 @@ void addAxisTable(ScatteringTables& tables, const scene::Phase& phase, int bands
     mirrored.g = -phase.g;  // only models with a g have such a peak
     const int used = std::min(bands, bandsBesideRings);
     tables.axisTable = makeAxisTable(PhaseFunction(mirrored), static_cast<double>(tables.angleScale), used);
-    for (std::size_t l = static_cast<std::size_t>(used); l < tables.bandMoments.size(); ++l) tables.bandMoments[l] = 0.0F;
+    for (std::size_t l = static_cast<std::size_t>(used); l < tables.bandMoments.size(); ++l)
+        tables.bandMoments[l] = 0.0F;
 }
 
 }  // namespace

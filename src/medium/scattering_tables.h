@@ -22,7 +22,8 @@ struct ScatteringTables {
     std::vector<float> inverseCdf;
 
     float angleScale = 1.0F;  ///< for angleToAxis
-    /// What rings about the sun's axis scatter beyond the bands (sun_axis.h); empty where the phase function has no backward peak.
+    /// What rings about the sun's axis scatter beyond the bands (sun_axis.h); empty where the phase function has no
+    /// backward peak.
     std::vector<float> axisTable;
     /// ln p [ln 1/sr], p averaged over the sun's disc, phaseTableSize entries, looked up with
     /// tableCell(angleToAxis(angle, angleScale), phaseTableSize).

@@ -24,10 +24,10 @@ const char* nameOf(Stop stop);
 struct Reached {
     Stop stop = Stop::photons;
     int generations = 0;
-    std::optional<double> noise;  ///< relMSE; absent: no time for an estimate
-    double previewSeconds = 0.0;  ///< spent on estimating the noise
+    std::optional<double> noise;    ///< relMSE; absent: no time for an estimate
+    double previewSeconds = 0.0;    ///< spent on estimating the noise
     std::uint64_t photonsEach = 0;  ///< of a generation, where those of the scene took too long; else 0
-    bool unfinished = false;  ///< no generation ended in time: the last one was kept without photons on their way
+    bool unfinished = false;        ///< no generation ended in time: the last one was kept without photons on their way
 };
 
 /// Traces at least one generation, and more until the goal is met, with a Renderer made for progressive rendering.

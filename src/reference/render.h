@@ -21,8 +21,8 @@ class Renderer {
     Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
              std::uint64_t seed);
 
-    /// Adds a sample to every pixel, at a random point of the pixel (a box filter), on all threads of TBB. The sun's disc
-    /// is looked at through a random point of what it covers. A pass that is stopped leaves the film as it was and
+    /// Adds a sample to every pixel, at a random point of the pixel (a box filter), on all threads of TBB. The sun's
+    /// disc is looked at through a random point of what it covers. A pass that is stopped leaves the film as it was and
     /// returns false.
     bool pass(const Continue& goOn);
 

@@ -99,8 +99,8 @@ class Renderer {
 
     /// Generations that the scene asks for (0 where no photon is needed).
     int generationsWanted() const;
-    /// Traces one generation into the oldest slot of the ring of every cloud. Where `check` throws between two rounds of
-    /// photons and there is a ring, the light of before stays.
+    /// Traces one generation into the oldest slot of the ring of every cloud. Where `check` throws between two rounds
+    /// of photons and there is a ring, the light of before stays.
     void traceGeneration();
     /// The same, unless `cutOff` ends it between two rounds of photons. Returns false then: what was traced is dropped,
     /// and the light of before stays, with a ring or without.

@@ -61,6 +61,17 @@ class Progressive(CliTest):
         self.assertIsNone(stats["progressive"]["noise"])
         self.assertRegex(said, r"^lumulus: warning: 0\.001 s were too short .*\n$")
 
+    def test_a_very_thick_cloud_has_a_picture_in_time(self):
+        """Density in wrong units: not one generation of the scene's photons would end."""
+        for scale in ("1e3", "1e6"):
+            with self.subTest(scale=scale):
+                layers, stats, said, took = self.progressive("--seconds", "2", "--set", f"cloud.0.density_scale={scale}",
+                                                             "--set", "photon_map.photons=1000000")
+                self.assertEqual(stats["progressive"]["stop"], "seconds")
+                self.assertLess(stats["seconds"]["total"], 2 * 2 + 3)
+                self.assertGreater(max(layers["cloud.G"]), 0.0)
+                self.assertIn("warning", said)
+
     def test_a_target_below_the_bias_is_named(self):
         _, _, said, _ = self.progressive("--target-error", "1e-3")
         self.assertRegex(said, r"^lumulus: warning: the bias of relMSE .* is larger than the target 0\.001")

@@ -165,6 +165,49 @@ absorption = 0.05
         self.assertFalse(self.picture.exists())
 
 
+class AgainstTheReference(CliTest):
+    """What render and the path tracer, which share no light code, have in common."""
+
+    def test_backscattering(self):
+        """The sun's light goes to and fro along its axis: sun and sky within 3 % of the reference."""
+        path = self.scene(SCENE + "phase = { model = \"henyey-greenstein\", g = -0.95 }\n")
+        for g in (-0.8, -0.95, -0.99):
+            with self.subTest(g=g):
+                sets = ["--quiet", "--set", f"cloud.0.phase.g={g}"]
+                for command, name, more in (("reference", "r.exr", ["--spp", 1000, "--majorant", "local"]),
+                                            ("render", "p.exr", ["--set", "photon_map.photons=2000000"])):
+                    result = self.run_lumulus(command, path, "-o", self.out / name, *sets, *more)
+                    self.assertEqual((result.returncode, result.stderr), (0, ""))
+                found = json.loads(self.run_lumulus("compare", self.out / "p.exr", self.out / "r.exr", "--json").stdout)
+                error = found["standard_error"]["relative_bias"]
+                self.assertLess(error, 0.012, "else this test says little")
+                self.assertLess(abs(found["relative_bias"]), 0.03 + 2.0 * error)
+
+    def test_the_sun_in_a_panorama(self):
+        """An HDRI holds the sun's irradiance, 5 W/m², at every size and place, by both."""
+        path = self.scene("""
+cloud = []
+camera = { projection = "panorama", position = [0, 0, 0], target = [0, 0, -1] }
+sky = { radiance = 0 }
+sun = { irradiance = 5.0 }
+""")
+        for height, azimuth, elevation in ((128, 33.3, 30.0), (16, 180.0, 89.7), (4, 77.0, -12.0)):
+            sets = [word for key, value in (("image.width", 2 * height), ("image.height", height), ("sun.azimuth", azimuth),
+                                            ("sun.elevation", elevation)) for word in ("--set", f"{key}={value}")]
+            for command, more in (("render", []), ("reference", ["--spp", 1])):
+                with self.subTest(height=height, command=command):
+                    result = self.run_lumulus(command, path, "-o", self.picture_path(), "--quiet", *sets, *more)
+                    self.assertEqual((result.returncode, result.stderr), (0, ""))
+                    radiance = read_exr(self.picture_path())[2]["G"]
+                    rows = [math.sin(math.pi * (0.5 - row / height)) for row in range(height + 1)]
+                    found = sum(value * math.pi / height * (rows[i // (2 * height)] - rows[i // (2 * height) + 1])
+                                for i, value in enumerate(radiance))
+                    self.assertAlmostEqual(found, 5.0, delta=0.01)
+
+    def picture_path(self):
+        return self.out / "panorama.exr"
+
+
 class Compare(CliTest):
     def image(self, name, change=None, width=4, height=3):
         """A grey picture; `change` is done to its layers."""

@@ -153,8 +153,8 @@ TEST_P(LightFieldTest, HoldsWhatWasCountedAndNothingElse) {
     EXPECT_LT(dark, cells.count() * 7 / 8);
 }
 
-/// Where few photons met, the collectors' light towards the eye cancels but for a rest in the colour of one of them. What
-/// the count of directions adds then has the colour of all light there.
+/// Where few photons met, the collectors' light towards the eye cancels but for a rest in the colour of one of them.
+/// What the count of directions adds then has the colour of all light there.
 TEST_F(LongCloud, WhatIsCountedHasTheColourOfAllLight) {
     vdb::Volume volume = test::emptyVolume({8, 8, 8});
     test::fillVolume(volume, [](const ivec3&) { return 1.0; });

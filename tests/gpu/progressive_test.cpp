@@ -157,9 +157,12 @@ TEST(Progressive, AVeryThickCloudEndsInTime) {
         EXPECT_GT(reached.photonsEach, 0U);
         EXPECT_LT(reached.photonsEach, 100'000U);
         const LayeredImage image = renderer.draw();
-        const float middle = image.layers.at("cloud.G")[12 * 32 + 16];
-        EXPECT_TRUE(std::isfinite(middle));
-        EXPECT_GT(middle, 0.0F);
+        float brightest = 0.0F;
+        for (const float value : image.layers.at("cloud.G")) {
+            ASSERT_TRUE(std::isfinite(value));
+            brightest = std::max(brightest, value);
+        }
+        EXPECT_GT(brightest, 0.0F);
         EXPECT_EQ(renderer.statistics().lost > 0, reached.unfinished);
     }
 }

@@ -49,6 +49,35 @@ class ShadowVolumeTest : public test::VulkanTest {
     }
 };
 
+/// Flat voxels of 50:2:50 m under slanting light: texels are as fine as the voxels, every layer of them is there, and
+/// the depth is that of the metres above. Away from the sides, where light enters aside.
+TEST_F(ShadowVolumeTest, FlatVoxelsAreResolved) {
+    constexpr int height = 24;
+    vdb::Volume deck = boxVolume({30, height, 30});
+    deck.toWorld.linear = glm::dmat3(dvec3(50.0, 0, 0), dvec3(0, 2.0, 0), dvec3(0, 0, 50.0));
+    const cloud::Asset cloud = cloud::prepare(context, deck, test::prepareOptions(100));
+    const double extinction = 0.08;
+    for (const dvec3 to : {dvec3(0.3, 1.0, 0.0), dvec3(-0.5, 0.6, 0.2), dvec3(0.0, 1.0, 0.0), dvec3(0.4, -0.7, -0.3)}) {
+        const dvec3 travel = -glm::normalize(to);
+        const DepthGrid grid = fill(cloud, travel, extinction);
+        const dvec3 edges = glm::abs(grid.grid.gridToVoxel[2]);
+        EXPECT_NEAR(edges.y, 1.0, 1e-9) << "one layer of voxels";
+        int inside = 0;
+        for (int k = 0; k < grid.grid.size.z; ++k)
+            for (int j = 0; j < grid.grid.size.y; ++j)
+                for (int i = 0; i < grid.grid.size.x; ++i) {
+                    const dvec3 voxel = grid.voxelOf({i, j, k});
+                    if (voxel.x < 5.0 || voxel.z < 5.0 || voxel.x > 27.0 || voxel.z > 27.0) continue;
+                    const double below = to.y > 0.0 ? height + 2 - voxel.y : voxel.y;  // layers, with one of soft rim
+                    if (below < 2.0 || below > height) continue;
+                    const double length = (below - 1.0) * 2.0 / std::abs(travel.y);
+                    ASSERT_NEAR(grid.at({i, j, k}), extinction * length, 0.002 * extinction * length + 0.002);
+                    ++inside;
+                }
+        EXPECT_GT(inside, 1000);
+    }
+}
+
 /// A deck lit from above: depth grows by σ a metre from its top down, and stays behind it.
 TEST_F(ShadowVolumeTest, SlabFromAbove) {
     constexpr int height = 8;

@@ -102,6 +102,10 @@ TEST_P(Tables, FractionsAndMoments) {
         const double moment = test::integrateSphere(
             [&](double theta) { return function_.evaluateAngle(theta) * std::legendre(l, std::cos(theta)); }, cut, pi,
             function_.lobeWidth());
+        if (!tables_.axisTable.empty() && l >= 3) {
+            EXPECT_EQ(tables_.bandMoments[l], 0.0F) << "rings take it over, l = " << l;
+            continue;
+        }
         EXPECT_NEAR(static_cast<double>(tables_.bandMoments[l]), moment / turn, 1e-6) << "l = " << l;
     }
     EXPECT_EQ(tables_.analyticHg, phase_.model == scene::PhaseModel::henyeyGreenstein);

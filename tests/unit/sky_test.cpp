@@ -36,8 +36,9 @@ struct Sight {
             double angle = 0.0;
             for (int i = 0; i < parts * parts; ++i) {
                 const auto to = [&](int x, int y) {
-                    return view.ray(pixel.pixel.x + (i % parts + x) / static_cast<double>(parts),
-                                    pixel.pixel.y + (i / parts + y) / static_cast<double>(parts))
+                    return view
+                        .ray(pixel.pixel.x + (i % parts + x) / static_cast<double>(parts),
+                             pixel.pixel.y + (i / parts + y) / static_cast<double>(parts))
                         .direction;
                 };
                 angle += 0.5 * glm::length(glm::cross(to(1, 1) - to(0, 0), to(0, 1) - to(1, 0)));
@@ -69,7 +70,8 @@ TEST(SunDisc, APanoramaHoldsItsIrradiance) {
                     sight.sun.directionTo = {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
                     sight.sun.angularDiameter = diameter;
                     sight.expectIrradiance("panorama");
-                    if (testing::Test::HasFailure()) FAIL() << height << " " << diameter << " " << elevation << " " << azimuth;
+                    if (testing::Test::HasFailure())
+                        FAIL() << height << " " << diameter << " " << elevation << " " << azimuth;
                 }
     }
 }
@@ -106,7 +108,8 @@ TEST(SunDisc, SharesAreThoseOfRays) {
                 constexpr int rays = 40;
                 int met = 0;
                 for (int i = 0; i < rays * rays; ++i) {
-                    const dvec3 direction = view.ray(x + (i % rays + 0.5) / rays, y + (i / rays + 0.5) / rays).direction;
+                    const dvec3 direction =
+                        view.ray(x + (i % rays + 0.5) / rays, y + (i / rays + 0.5) / rays).direction;
                     met += glm::dot(direction, sight.sun.directionTo) > std::cos(radius) ? 1 : 0;
                 }
                 // rays are even over the pixel and not over its solid angle: the same but for some percent
