@@ -77,10 +77,12 @@ void FrameMaker::refine(const SlotPointer& slot, bool generation) {
     try {
         trace(slot, generation);
     } catch (const TooSlow& e) {
-        const Failure failure{"too_large", e.what(), {}};
+        {
+            const std::lock_guard lock(host_.mutex);
+            for (const ClientId client : host_.scenes.clientsOf(slot))
+                host_.lights.noteFailure(client, {"too_large", e.what(), {}});
+        }
         if (!bringBack(slot, "generation_cut_off", e)) dropSlot(slot, "generation_failed", e.what());
-        const std::lock_guard lock(host_.mutex);
-        if (slot->owner()) host_.lights.noteFailure(*slot->owner(), failure);
     } catch (const std::exception& e) {
         dropSlot(slot, "generation_failed", e.what());
     }

@@ -76,6 +76,13 @@ bool SceneStore::watched(const SlotPointer& slot) const {
            });
 }
 
+std::vector<ClientId> SceneStore::clientsOf(const SlotPointer& slot) const {
+    std::vector<ClientId> clients;
+    for (const auto& [client, shown] : shownTo_)
+        if (shownTo(client) == slot) clients.push_back(client);
+    return clients;
+}
+
 std::vector<ClientId> SceneStore::withoutScene() const {
     std::vector<ClientId> clients;
     for (const auto& [client, shown] : shownTo_)

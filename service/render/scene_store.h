@@ -43,6 +43,8 @@ class SceneStore {
     std::vector<SlotPointer> takeRetired() { return std::exchange(retired_, {}); }
 
     void setDefault(SlotPointer slot) { default_ = std::move(slot); }
+    /// Clients that see this scene under this light.
+    std::vector<ClientId> clientsOf(const SlotPointer& slot) const;
     /// Clients that see no scene.
     std::vector<ClientId> withoutScene() const;
     bool hasDefault() const { return default_ != nullptr; }
