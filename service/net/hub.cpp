@@ -19,8 +19,9 @@ constexpr std::size_t largeBytes = std::size_t{4} << 20U;
 SessionPolicy policyOf(const Config& config) {
     const RenderLimits& limits = config.render.limits;
     const MessageLimits& messages = config.limits.messages;
-    const Welcome welcome{config.render.defaultScene, config.render.quality, messages, limits.requests, limits.streams,
-                          limits.queuedFrames};
+    const Welcome welcome{
+        config.render.defaultScene, config.render.quality,    messages, limits.requests, limits.streams,
+        limits.queuedFrames,        config.render.sharedLight};
     return {config.token, welcomeText(welcome), messages, limits.requests};
 }
 

@@ -117,6 +117,7 @@ std::string welcomeText(const Welcome& welcome) {
                     {"software", std::string("lumulus ") + version},
                     {"scene", welcome.scene},
                     {"quality", welcome.quality},
+                    {"shared_light", welcome.sharedLight},
                     {"limits",
                      {{"json_bytes", welcome.messages.jsonBytes},
                       {"payload_bytes", welcome.messages.payloadBytes},

@@ -20,6 +20,7 @@ struct Welcome {
     MessageLimits messages;
     RequestLimits requests;
     std::uint32_t streams = 0, queuedFrames = 0;
+    bool sharedLight = false;  ///< whether a client changes the light of all who see the scene
 };
 
 /// JSON of the reply to hello.

@@ -29,8 +29,8 @@ void SceneStore::retireOwn(ClientId client) {
 void SceneStore::promiseOwn(ClientId client) {
     if (own_.contains(client)) return;
     if (own_.size() >= mostOwn_)
-        throw RequestError("busy", "all " + std::to_string(mostOwn_) +
-                                       " lights of their own that the service gives to clients are in use");
+        throw RequestError("busy", "all lights of their own that the service gives to clients (" +
+                                       std::to_string(mostOwn_) + ") are in use");
     own_[client] = nullptr;
 }
 

@@ -8,11 +8,14 @@ export function duration(seconds) {
     return `${Math.floor(seconds / 3600)} h`;
 }
 
-// `own`: nobody else may share the light; `clients`: who see the scene, null where that is not known.
-export function ownerOfLight(own, clients) {
-    if (own) return "own";
-    if (clients === null || clients <= 1) return "shared, nobody else here";
-    return clients === 2 ? "shared with one other" : `shared with ${clients - 1} others`;
+// `scene`: what the server's statistics say of it, null where that is not known; `isShared`: viewers change the light of
+// each other.
+export function ownerOfLight(scene, isShared) {
+    if (scene?.own) return "own";
+    const others = (scene?.clients ?? 1) - 1;
+    const they = others === 1 ? "one other" : `${others} others`;
+    if (!isShared) return others < 1 ? "the scene’s" : `the scene’s, ${they} here`;
+    return others < 1 ? "shared, nobody else here" : `shared with ${they}`;
 }
 
 // [what, text] pairs for a frame's reply that came `since` seconds ago.

@@ -31,3 +31,10 @@ export function lightShown(original, repeat) {
     }
     return {sun: sunAngles(sun), extinction};
 }
+
+// What a viewer has to wish, {sun, extinction}, to see a light where the scene's own is `original`.
+export function changesOf(light, original) {
+    const sun = light.sun.some((angle, i) => Math.abs(angle - original.sun[i]) > 0.01) ? light.sun : null;
+    const extinction = new Map([...light.extinction.entries()].filter(([i, value]) => value !== original.extinction[i]));
+    return {sun, extinction};
+}

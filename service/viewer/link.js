@@ -7,7 +7,7 @@ export function freshWishes() {
         vdb: "",               // SHA-256 of an upload, and `file`, what it was called
         file: "",
         quality: null,         // draft, interactive, final, or "" for what the scene says
-        own: false,            // a light that no other viewer shares
+        own: false,            // where viewers share light: a scene that no other viewer shares
         sun: null,             // [azimuth, elevation], degrees
         exposure: null,        // stops
         extinction: new Map(), // 1/m by the cloud's index, or by "all"

@@ -7,6 +7,7 @@ export class Notices {
     }
 
     set(topic, text, kind = "error") {
+        if (this.shown.get(topic)?.querySelector("span").textContent === text) return; // it is not announced twice
         this.clear(topic);
         const item = document.createElement("li");
         item.className = kind;

@@ -113,6 +113,7 @@ export class Panel {
         this.showClouds(scene.original.clouds);
         element("quality").value = wishes.quality ?? welcome.quality;
         element("own").checked = wishes.own;
+        element("own").parentElement.hidden = !welcome.shared_light;
         this.sliders.set("exposure", wishes.exposure ?? scene.exposure);
         this.sliders.set("fog", Math.log10(wishes.fog ?? clearAir));
         this.showLight(this.wishedLight());

@@ -18,7 +18,7 @@ const notices = new Notices(element("notices"));
 const picture = new Picture(element("picture"));
 
 let last = null;         // the last frame's reply, and when it came
-let clients = null;      // who see the scene
+let sceneState = null;   // what the statistics say of the scene
 let loadingSince = null; // while a scene loads
 let sceneNames = [];
 let linkTimer = 0;
@@ -111,7 +111,7 @@ function showProgress(text, share) {
 }
 
 function statistics(json) {
-    clients = json.scene?.clients ?? null;
+    sceneState = json.scene ?? null;
     const seconds = loadingSince === null ? 0 : Math.floor((performance.now() - loadingSince) / 1000);
     const step = json.loading ? `: ${json.loading.step}` : "";
     if (seconds > 0) showProgress(`Loading ${viewing.sceneName()}${step}, ${seconds} s`, null);
@@ -120,7 +120,8 @@ function statistics(json) {
 
 function showFigures() {
     if (!last) return;
-    const owner = ownerOfLight(viewing.wishes.own, clients);
+    // a scene that nobody else may load counts as a light of one's own
+    const owner = viewing.wishes.own ? "own" : ownerOfLight(sceneState, viewing.sharesLight);
     writeFigures(element("figures"), figuresOf(last.json, (performance.now() - last.at) / 1000, owner));
 }
 
@@ -132,6 +133,12 @@ async function framed({json, payload}) {
     data.firstPicture ??= Math.round(performance.now()); // ms since the page was asked for
     last = {json, at: performance.now()};
     showFigures();
+}
+
+// The server gave the light up that the viewer wished for.
+function lightLost() {
+    panel.show();
+    keepLink();
 }
 
 // Sliders that nobody uses show the light that the picture has, whoever changed it.
@@ -244,7 +251,7 @@ const url = new URL("frames", document.baseURI);
 url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
 url.hash = "";
 const viewing = new Viewing(url.href, readLink(location.hash), {
-    notices, view, connected, tokenWanted, loading, loaded, framed, statistics,
+    notices, view, connected, tokenWanted, loading, loaded, framed, statistics, lightLost,
 });
 const orbit = new Orbit(element("picture"), changed);
 const panel = new Panel(viewing, () => orbit.azimuth, changed);

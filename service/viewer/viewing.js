@@ -1,16 +1,17 @@
 // One viewer's view of the server: which scene is loaded, the stream of its pictures, and changes of its light.
 import {Connection} from "./protocol.js";
 import {freshWishes} from "./link.js";
-import {lightShown} from "./light.js";
+import {changesOf, lightShown} from "./light.js";
 
 const restTime = 400;          // ms without a touch after which pictures get all pixels
 const hastyMilliseconds = 150; // for a picture until then
 const pollTime = {loading: 300, watching: 2000}; // ms between questions for statistics
-const longestRetry = 30000;    // ms until a scene that failed is loaded again
+const longestRetry = 30000;    // ms until a scene that failed, or a light without room, is asked for again
+const lightRetry = 2000;       // ms until a light that found no room is asked for again, the first time
 const loadKeys = ["scene", "vdb", "file", "quality", "own", "g", "fog"]; // wishes that need the scene to be loaded
 
 // `page` is told what happens: connected(isOpen), tokenWanted(), loading({name} or null), loaded(isOther), framed(message),
-// statistics(json). It has `notices`, and view(): {camera, width, height, exposure}.
+// statistics(json), and lightLost() where the server gave the viewer's light up. It has `notices`, and view(): {camera, width, height, exposure}.
 export class Viewing {
     constructor(url, wishes, page) {
         this.page = page;
@@ -26,6 +27,8 @@ export class Viewing {
         this.frameAsked = false;
         this.unsent = new Set(); // changes of light: "sun", or the cloud of an extinction
         this.retry = 1000;
+        this.lightRetry = lightRetry;
+        this.isLightLost = false; // the wishes are not what the server draws, until a frame tells
         this.url = url;
     }
 
@@ -79,6 +82,11 @@ export class Viewing {
         return this.wishes.file || this.wishes.scene || this.welcome.scene;
     }
 
+    // Whether others see what this viewer changes.
+    get sharesLight() {
+        return this.welcome.shared_light && !this.wishes.own;
+    }
+
     sceneRequest() {
         const {scene, vdb, quality, own, g, fog} = this.wishes;
         const set = [...g].map(([cloud, value]) => `cloud.${cloud}.phase.g=${value}`);
@@ -98,6 +106,7 @@ export class Viewing {
     // whose notice stays.
     async load(instead = false) {
         const number = ++this.loads;
+        if (!this.welcome.shared_light) this.wishes.own = false; // who changes light gets its own there anyway
         this.isLoading = true;
         this.page.loading({name: this.sceneName()});
         try {
@@ -126,10 +135,13 @@ export class Viewing {
         this.held.g = new Map(this.wishes.g);
         const {notices} = this.page;
         notices.clear("warnings");
+        notices.clear("light");
+        clearTimeout(this.lightTimer);
+        this.lightRetry = lightRetry;
+        this.isLightLost = false;
         if (json.warnings.length > 0) notices.set("warnings", json.warnings.join(" "), "warning");
         this.page.loaded(before?.scene !== this.held.scene || before?.vdb !== this.held.vdb);
-        if (this.wishes.sun) this.unsent.add("sun");
-        for (const cloud of this.wishes.extinction.keys()) this.unsent.add(cloud);
+        this.sendAllLight();
         this.ask();
     }
 
@@ -172,6 +184,7 @@ export class Viewing {
     // Light is changed for once, not again by every frame: others who share it may change it too.
     changeSun(angles) {
         this.wishes.sun = angles;
+        this.lightRetry = lightRetry;
         this.unsent.add("sun");
         this.ask();
     }
@@ -180,8 +193,14 @@ export class Viewing {
     changeExtinction(cloud, value) {
         if (cloud === "all") this.wishes.extinction.clear();
         this.wishes.extinction.set(cloud, value);
+        this.lightRetry = lightRetry;
         this.unsent.add(cloud);
         this.ask();
+    }
+
+    sendAllLight() {
+        if (this.wishes.sun) this.unsent.add("sun");
+        for (const cloud of this.wishes.extinction.keys()) this.unsent.add(cloud);
     }
 
     async sendLight() {
@@ -199,9 +218,23 @@ export class Viewing {
         try {
             await Promise.all(changes.map((one) => this.connection.ask("change", one)));
             this.page.notices.clear("light");
+            clearTimeout(this.lightTimer);
         } catch (error) {
-            if (error.code !== "closed") this.page.notices.set("light", error.message);
+            if (error.code === "busy") this.waitForLight(error);
+            else if (error.code !== "closed") this.page.notices.set("light", error.message);
         }
+    }
+
+    // The server has no room for another light: the wishes stay, and are sent again, less and less often, until it has.
+    waitForLight(error) {
+        const text = `Your light waits: ${error.message}. The page asks again until there is room.`;
+        this.page.notices.set("light", text, "warning");
+        clearTimeout(this.lightTimer);
+        this.lightTimer = setTimeout(() => {
+            this.sendAllLight();
+            this.sendLight();
+        }, this.lightRetry);
+        this.lightRetry = Math.min(2 * this.lightRetry, longestRetry);
     }
 
     // All wishes but the scene's name are forgotten, and the light is the one of the scene's file again.
@@ -214,7 +247,8 @@ export class Viewing {
         const changes = [{sun}, ...clouds.map(({extinction}, cloud) => ({cloud, extinction})).filter((one) => one.extinction > 0)];
         this.light = lightShown(this.scene.original, []);
         this.unsent.clear();
-        if (other) this.load().then(() => this.change(changes));
+        if (!this.welcome.shared_light) this.load(); // which gives a light of the viewer's own up
+        else if (other) this.load().then(() => this.change(changes));
         else this.change(changes);
         this.ask();
     }
@@ -224,15 +258,29 @@ export class Viewing {
         this.retry = 1000;
         if (this.isLoading) return; // it shows the scene of before
         this.light = lightShown(this.scene.original, message.json.repeat);
+        if (this.isLightLost) {
+            this.isLightLost = false;
+            Object.assign(this.wishes, changesOf(this.light, lightShown(this.scene.original, [])));
+            this.page.lightLost();
+        }
         this.page.framed(message);
     }
 
-    // A scene that failed is gone: it is loaded again, less and less often.
+    // A scene that failed is gone: it is loaded again, less and less often. Light that takes too long to trace, or has
+    // no room, is gone too, and the stream goes on with the light of before.
     streamFailed(error) {
-        if (error.code === "superseded" || error.code === "closed") return;
-        this.page.notices.set("stream", error.message);
-        if (error.code !== "internal" && error.code !== "no_scene") return;
-        setTimeout(() => this.load(), this.retry);
+        const {code, message} = error;
+        if (code === "superseded" || code === "closed") return;
+        if (code === "busy") this.waitForLight(error);
+        else if (code === "too_large") this.page.notices.set("light", `The light of before is back: ${message}`);
+        else this.page.notices.set("stream", message);
+        if (code === "too_large") this.isLightLost = true;
+        if (code === "too_large" || code === "busy")
+            setTimeout(() => this.connection.stream(this.frameWishes()), this.retry);
+        else if (code === "internal" || code === "no_scene")
+            setTimeout(() => this.load(), this.retry);
+        else
+            return;
         this.retry = Math.min(2 * this.retry, longestRetry);
     }
 

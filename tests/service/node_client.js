@@ -120,6 +120,7 @@ const refusal = (promise) => promise.then(() => "taken", (error) => error.code);
 async function checkHello(client) {
     const {json} = await client.ask("hello", {version: 1, client: "node"});
     assert.equal(json.version, 1);
+    assert.equal(json.shared_light, false);
     for (const limit of ["json_bytes", "payload_bytes", "pixels", "views", "upload_bytes", "streams", "queued_frames"])
         assert.ok(Number.isInteger(json.limits[limit]), limit);
     return json;

@@ -53,6 +53,13 @@ TEST(Replies, AFrameTellsItsTimesByStageAndByPass) {
     EXPECT_TRUE(body["hash"].is_null());
 }
 
+TEST(Replies, HelloTellsWhetherLightIsShared) {
+    Welcome welcome;
+    EXPECT_EQ(json::parse(welcomeText(welcome))["shared_light"], false);
+    welcome.sharedLight = true;
+    EXPECT_EQ(json::parse(welcomeText(welcome))["shared_light"], true);
+}
+
 TEST(Replies, ABudgetCountsTheEncoding) {
     FrameRequest request;
     EXPECT_EQ(reply(request, drawn(), 30.0)["budget_met"], true);

@@ -33,6 +33,9 @@ endforeach()
 foreach(class Page Failures First Death Phone)
   service_test(page.${class} page_test.py ${class})
 endforeach()
+foreach(class OwnLight HeavyLight SharedLight)
+  service_test(page.${class} page_light_test.py ${class})
+endforeach()
 foreach(class Files Token)
   service_test(page.${class} page_files_test.py ${class})
 endforeach()
@@ -46,4 +49,5 @@ service_test(client client_test.py ${CMAKE_BINARY_DIR} $<$<BOOL:${LUMULUS_SANITI
 service_test(load load_test.py --seconds 15)
 # What waits for deadlines, shares and a browser has the machine for itself.
 set_tests_properties(service.load service.frames.Behaviour service.page.Page service.page.Failures service.page.First
-                     service.page.Death service.page.Phone service.page.Files service.page.Token PROPERTIES RUN_SERIAL TRUE)
+                     service.page.Death service.page.Phone service.page.Files service.page.Token
+                     service.page.OwnLight service.page.HeavyLight service.page.SharedLight PROPERTIES RUN_SERIAL TRUE)

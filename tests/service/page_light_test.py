@@ -1,0 +1,142 @@
+"""The page in headless Chromium: whose light its viewer changes, on servers that share light and on those that do not."""
+
+import unittest
+
+from browser import Browser
+from page_test import PageTest
+from server import LUMULUS, Server
+
+NIGHTFALL = {"sun": {"azimuth": 10, "elevation": 3}}
+
+
+def picture(client):
+    return client.frame(width=32, height=24).info["hash"]
+
+
+def waiting(browser):
+    """Whether a notice says that there is no room for the viewer's light."""
+    return "are in use" in browser.notices().get("light", "")
+
+
+class OwnLight(PageTest):
+    options = {"limits": "own_lights = 1"}
+
+    def setUp(self):
+        self.browser.open(self.server)
+
+    def sun(self):
+        return [round(self.browser.value(name)) for name in ("elevation", "azimuth")]
+
+    def test_others_do_not_see_the_viewers_light(self):
+        browser = self.browser
+        self.assertFalse(browser.element("own").is_displayed())
+        browser.wait(lambda: browser.figures()["light"] == "the scene’s")
+        with self.server.client() as client:
+            before = picture(client)
+            browser.wait(lambda: browser.figures()["light"] == "the scene’s, one other here")
+            shown = browser.picture()
+            browser.click("[data-sun=dusk]")
+            browser.wait(lambda: browser.figures()["light"] == "own")
+            browser.wait(lambda: browser.picture() != shown)
+            dusk = self.sun()
+            self.assertEqual(dusk[0], 4)
+            self.assertEqual(picture(client), before)
+            # pages that are left give their light back, or there would be no room for that of the next
+            for _ in range(3):
+                browser.open(self.server, browser.run("return location.hash"))
+                browser.wait(lambda: browser.figures()["light"] == "own")
+                self.assertEqual((browser.notices(), self.sun()), ({}, dusk))
+            browser.click("#reset")
+            browser.wait(lambda: browser.figures()["light"] == "the scene’s, one other here")
+            browser.wait(lambda: self.sun() == [35, 70] and "sun" not in browser.link())
+            client.change(**NIGHTFALL)  # there is room for it again
+            self.assertNotEqual(picture(client), before)
+        self.assertEqual(browser.errors(), [])
+
+    def test_a_light_without_room_waits(self):
+        browser = self.browser
+        with self.server.client() as client:
+            client.change(**NIGHTFALL)
+            picture(client)
+            browser.click("[data-sun=dusk]")
+            browser.wait(lambda: waiting(browser))
+            browser.wait(lambda: self.sun() == [35, 70])  # the sliders show the light that the picture has
+        browser.wait(lambda: browser.notices() == {} and self.sun()[0] == 4)
+        browser.wait(lambda: browser.figures()["light"] == "own")
+
+    def test_links_of_servers_that_share_light(self):
+        browser = self.browser
+        browser.open(self.server, "#own=1")
+        browser.wait(lambda: list(browser.link()) == ["camera"])
+        browser.wait(lambda: browser.figures()["light"] == "the scene’s")
+
+
+class HeavyLight(unittest.TestCase):
+    def test_light_that_takes_too_long_is_given_up(self):
+        server = Server(LUMULUS, limits="generation_seconds = 3")
+        self.addCleanup(server.stop)
+        browser = Browser()
+        self.addCleanup(browser.close)
+        browser.open(server)
+        browser.run("location.hash = 'extinction=1000000&exposure=1'")
+        browser.wait(lambda: browser.notices().get("light", "").startswith("The light of before is back: "))
+        browser.wait(lambda: browser.link().get("exposure") == "1" and "extinction" not in browser.link())
+        browser.wait(lambda: abs(browser.value("extinction") + 1.52) < 0.01)
+        before = browser.frames()
+        browser.click("[data-sun=noon]")  # the page goes on
+        browser.wait(lambda: browser.frames() > before and browser.notices() == {})
+
+
+class SharedLight(PageTest):
+    options = {"security": "shared_light = true"}
+
+    def setUp(self):
+        self.browser.open(self.server)
+
+    def test_others_share_the_light(self):
+        browser = self.browser
+        with self.server.client() as client:
+            client.load_scene("small.toml")
+            browser.wait(lambda: browser.figures()["light"] == "shared with one other")
+            client.change(sun={"azimuth": -100, "elevation": 50})
+            # sliders that nobody has touched for a while follow
+            browser.wait(lambda: [round(browser.value(name)) for name in ("elevation", "azimuth")] == [50, -100])
+        browser.wait(lambda: browser.figures()["light"] == "shared, nobody else here")
+        browser.click("#own")
+        browser.wait(lambda: browser.figures()["light"] == "own" and browser.link().get("own") == "1")
+        browser.open(self.server, browser.run("return location.hash"))
+        self.assertTrue(browser.element("own").is_selected())
+        self.assertEqual(browser.figures()["light"], "own")
+
+    def test_sliders_mean_the_chosen_cloud(self):
+        browser = self.browser
+        self.assertFalse(browser.element("which").is_displayed())
+        browser.open(self.server, "#scene=two.toml")
+        self.assertEqual(browser.run("return [...document.getElementById('cloud').options].map((o) => o.text)"),
+                         ["all clouds", "west", "east"])
+        with self.server.client() as client:
+            client.load_scene("two.toml")
+
+            def changed():
+                repeat = client.frame(width=16, height=16, budget={"photons": 0}).info["repeat"]
+                return {line for line in repeat if line.startswith("cloud.")}
+
+            browser.set("cloud", "1")
+            self.assertFalse(browser.element("g").is_enabled())  # a Rayleigh phase function has none
+            self.assertAlmostEqual(browser.value("extinction"), -2.0, delta=0.02)
+            browser.set("extinction", -3)
+            browser.wait(lambda: changed() == {"cloud.1.extinction=0.001"})
+            browser.set("cloud", "all")
+            self.assertTrue(browser.element("g").is_enabled())
+            browser.set("extinction", -1)
+            browser.wait(lambda: changed() == {"cloud.0.extinction=0.1", "cloud.1.extinction=0.1"})
+            browser.set("cloud", "0")
+            browser.set("g", 0.2)
+            browser.wait(lambda: browser.link().get("g.0") == "0.2")
+            browser.click("#reset")
+            browser.wait(lambda: "g.0" not in browser.link())
+            browser.wait(lambda: changed() == set())
+
+
+if __name__ == "__main__":
+    unittest.main()
