@@ -128,7 +128,8 @@ PhotonState SceneSlot::photons() const {
 }
 
 SceneState SceneSlot::state() const {
-    return {scene_.source, photons(), renderer_->generationsWanted(), costs_.traceMs(), light_->now(), owner_.has_value(), 0};
+    return {scene_.source,      photons(), renderer_->generationsWanted(), costs_.traceMs(), light_->now(),
+            owner_.has_value(), 0};
 }
 
 std::size_t SceneSlot::findCloud(const CloudReference& cloud) const {

@@ -75,8 +75,9 @@ Renderer::Renderer(const scene::Scene& scene, const Renderer& other, const Rende
     State& s = *state_;
     const Stopwatch preparing;
     s.world.emplace(makeWorldBeside(s.context, scene, *other.state_->world,
-                                    {options.keepRing, options.progressive, s.report, s.check}));
+                                    {options.keepRing, options.progressive, s.report, {}, s.check}));
     s.statistics.warnings = other.state_->statistics.warnings;
+    s.statistics.clouds = other.state_->statistics.clouds;
     s.makePainters(scene);
     s.statistics.prepareSeconds = preparing.seconds();
 }
