@@ -11,7 +11,7 @@ void CostModel::Recent::add(double figure) {
     auto* const end = sorted.begin() + std::min(count_, sorted.size());
     auto* const middle = sorted.begin() + (end - sorted.begin()) / 2;
     std::nth_element(sorted.begin(), middle, end);
-    median_ = *middle;
+    median_ = std::max(*middle, 0.5 * figure);
 }
 
 void CostModel::traced(double milliseconds) {

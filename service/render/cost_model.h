@@ -56,7 +56,7 @@ class CostModel {
     int reductionFor(double milliseconds, const Work& work, std::uint64_t pixels, Encoding encoding) const;
 
   private:
-    /// The median of the last figures.
+    /// The median of the last figures, or half of the newest where that is more: a change shows at once.
     class Recent {
       public:
         void add(double figure);
