@@ -60,10 +60,24 @@ Upload readUpload(JsonFields& fields, std::vector<std::byte> payload, const Requ
     return upload;
 }
 
+std::optional<Rhythm> readRhythm(JsonFields& fields) {
+    constexpr double longest = 1e5;  // milliseconds, as of the slowest max_rate
+    const auto every = fields.number("every", 1.0, longest);
+    const auto phase = fields.number("phase", 0.0, longest);
+    if (phase && !every)
+        throw RequestError("bad_request", "a phase goes with the milliseconds between frames: give every", "phase");
+    if (!every) return std::nullopt;
+    return Rhythm{*every, phase.value_or(0.0)};
+}
+
 StartStream readStartStream(JsonFields& fields, const RequestLimits& limits) {
     StartStream start;
     start.frame = readFrame(fields, limits);
-    start.maxRate = fields.number("max_rate", 0.01, 1000.0).value_or(start.maxRate);
+    const auto rate = fields.number("max_rate", 0.01, 1000.0);
+    start.maxRate = rate.value_or(start.maxRate);
+    start.rhythm = readRhythm(fields);
+    if (rate && start.rhythm)
+        throw RequestError("bad_request", "a stream has a max_rate, or moments by every, not both", "max_rate");
     start.onChange = fields.choice("when", {"always", "change"}).value_or(0) == 1;
     return start;
 }

@@ -1,8 +1,18 @@
 #include "service/render/cost_model.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace lumulus::service {
+
+void CostModel::Recent::add(double figure) {
+    last_.at(count_++ % last_.size()) = figure;
+    std::array<double, std::tuple_size_v<decltype(last_)>> sorted = last_;
+    auto* const end = sorted.begin() + std::min(count_, sorted.size());
+    auto* const middle = sorted.begin() + (end - sorted.begin()) / 2;
+    std::nth_element(sorted.begin(), middle, end);
+    median_ = std::max(*middle, 0.5 * figure);
+}
 
 void CostModel::traced(double milliseconds) {
     trace_.add(milliseconds);
@@ -18,9 +28,21 @@ int CostModel::sunReductionFor(double milliseconds) const {
     return sunReductions.back();
 }
 
-void CostModel::drawn(double fixed, double total, std::uint64_t rays) {
-    fixed_.add(std::min(fixed, total));
-    perRay_.add(std::max(0.0, total - fixed) / static_cast<double>(std::max<std::uint64_t>(1, rays)));
+CostModel::Work CostModel::reduced(Work work, int reduction, std::uint64_t pixels) {
+    if (reduction == 1) return work;
+    work.rays = pixels / static_cast<std::uint64_t>(reduction * reduction);
+    work.enlarged = pixels;
+    return work;
+}
+
+void CostModel::drawn(const Work& work, const Spent& spent) {
+    const auto each = [](double milliseconds, std::uint64_t count) {
+        return std::max(0.0, milliseconds) / static_cast<double>(std::max<std::uint64_t>(1, count));
+    };
+    if (work.lights > 0) light_.add(each(spent.light, work.lights));
+    if (work.enlarged > 0) enlarging_.add(each(spent.enlarging, work.enlarged));
+    ray_.add(each(spent.rays, work.rays));
+    view_.add(each(spent.total - spent.light - spent.rays - spent.enlarging, work.views));
 }
 
 void CostModel::encoded(Encoding encoding, double milliseconds, std::uint64_t pixels) {
@@ -28,21 +50,19 @@ void CostModel::encoded(Encoding encoding, double milliseconds, std::uint64_t pi
         .add(milliseconds / static_cast<double>(std::max<std::uint64_t>(1, pixels)));
 }
 
-double CostModel::drawMs(std::uint64_t views, std::uint64_t rays) const {
-    return fixed_.value * static_cast<double>(views) + perRay_.value * static_cast<double>(rays);
+double CostModel::drawMs(const Work& work) const {
+    return view_.value() * static_cast<double>(work.views) + light_.value() * static_cast<double>(work.lights) +
+           ray_.value() * static_cast<double>(work.rays) + enlarging_.value() * static_cast<double>(work.enlarged);
 }
 
 double CostModel::encodeMs(Encoding encoding, std::uint64_t pixels) const {
-    return encode_.at(static_cast<std::size_t>(encoding)).value * static_cast<double>(pixels);
+    return encode_.at(static_cast<std::size_t>(encoding)).value() * static_cast<double>(pixels);
 }
 
-int CostModel::reductionFor(double milliseconds, std::uint64_t views, std::uint64_t rays, std::uint64_t pixels,
-                            Encoding encoding) const {
+int CostModel::reductionFor(double milliseconds, const Work& work, std::uint64_t pixels, Encoding encoding) const {
     const double left = milliseconds - encodeMs(encoding, pixels);  // the picture is sent at its full size
-    for (const int reduction : reductions) {
-        const auto area = static_cast<std::uint64_t>(reduction * reduction);
-        if (drawMs(views, reduction == 1 ? rays : pixels / area) <= left) return reduction;
-    }
+    for (const int reduction : reductions)
+        if (drawMs(reduced(work, reduction, pixels)) <= left) return reduction;
     return reductions.back();
 }
 

@@ -1,5 +1,7 @@
 #include "service/render/describe_scene.h"
 
+#include <fmt/format.h>
+
 namespace lumulus::service {
 
 namespace {
@@ -37,6 +39,24 @@ SceneDescription describeScene(const scene::Scene& scene, const Renderer& render
     result.centre = renderer.bounds().centre;
     result.radius = renderer.bounds().radius();
     return result;
+}
+
+std::vector<std::string> repeatOverrides(const scene::Scene& scene, const Renderer& renderer) {
+    const Generations ring = renderer.generations();
+    std::vector<std::string> overrides;
+    if (ring.count > 0)
+        overrides = {fmt::format("photon_map.first_generation={}", ring.first),
+                     fmt::format("photon_map.generations={}", ring.count),
+                     fmt::format("photon_map.photons={}", ring.photons())};
+    const scene::Sun& sun = renderer.sun();
+    if (const glm::dvec3 d = sun.directionTo; d != scene.sun.directionTo)
+        overrides.push_back(fmt::format("sun.direction_to=[{},{},{}]", d.x, d.y, d.z));
+    if (const glm::dvec3 e = sun.irradiance; e != scene.sun.irradiance)
+        overrides.push_back(fmt::format("sun.irradiance=[{},{},{}]", e.x, e.y, e.z));
+    for (std::size_t i = 0; i < scene.clouds.size(); ++i)
+        if (renderer.extinction(i) != scene.clouds[i].extinction)
+            overrides.push_back(fmt::format("cloud.{}.extinction={}", i, renderer.extinction(i)));
+    return overrides;
 }
 
 }  // namespace lumulus::service

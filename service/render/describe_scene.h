@@ -9,4 +9,7 @@ namespace lumulus::service {
 /// What clients are told of a scene that is loaded, under a light.
 SceneDescription describeScene(const scene::Scene& scene, const Renderer& renderer, const SceneLight& light);
 
+/// What `render` needs to make the same picture as the renderer does now, as values of --set.
+std::vector<std::string> repeatOverrides(const scene::Scene& scene, const Renderer& renderer);
+
 }  // namespace lumulus::service

@@ -205,7 +205,7 @@ void RenderService::renderLoop() {
             if (changes_.any()) continue;  // a picture that was asked for after a change shows it
             const auto now = Clock::now();
             const auto revision = [this](ClientId client) { return scenes_.revision(client); };
-            const auto due = scheduler_.nextDue(revision);
+            const auto due = scheduler_.nextDue(now, revision);
             if (!closing_) toRefine = scenes_.toRefine(now, due);
             starving = toRefine && SceneStore::starves(*toRefine, now);
             const bool full = encoding_.full();

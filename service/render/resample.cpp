@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace lumulus::service {
@@ -28,6 +29,11 @@ std::vector<Between> places(int from, int wanted, int whole, int small, int orig
     return result;
 }
 
+/// As std::lerp, which takes four times as long to be exact at the ends and beyond.
+float between(float first, float second, float share) {
+    return first + share * (second - first);
+}
+
 }  // namespace
 
 View reducedView(const View& view, int reduction) {
@@ -51,27 +57,28 @@ View reducedView(const View& view, int reduction) {
 
 LayeredImage enlarged(const LayeredImage& image, const View& view, const View& reduced) {
     const Tile to = drawnTile(view), from = drawnTile(reduced);
+    const auto along = [&](bool nearest) {
+        return std::pair(
+            places(to.x, to.width, view.image.width, reduced.image.width, from.x, from.width, nearest),
+            places(to.y, to.height, view.image.height, reduced.image.height, from.y, from.height, nearest));
+    };
+    const auto mixed = along(false), nearest = along(true);
     LayeredImage result;
     result.width = to.width;
     result.height = to.height;
     result.attributes = image.attributes;
+    const auto across = static_cast<std::size_t>(image.width);
+    std::vector<float> line(across);
     for (const auto& [name, values] : image.layers) {
-        const bool nearest = name.starts_with("depth.");
-        const auto columns = places(to.x, to.width, view.image.width, reduced.image.width, from.x, from.width, nearest);
-        const auto rows =
-            places(to.y, to.height, view.image.height, reduced.image.height, from.y, from.height, nearest);
-        std::vector<float>& layer = result.layer(name);
-        std::size_t i = 0;
+        const auto& [columns, rows] = name.starts_with("depth.") ? nearest : mixed;
+        float* out = result.layer(name).data();
         for (const Between& row : rows) {
-            const float* upper =
-                values.data() + static_cast<std::size_t>(row.first) * static_cast<std::size_t>(image.width);
-            const float* lower =
-                values.data() + static_cast<std::size_t>(row.second) * static_cast<std::size_t>(image.width);
-            for (const Between& column : columns) {
-                const float above = std::lerp(upper[column.first], upper[column.second], column.share);
-                const float below = std::lerp(lower[column.first], lower[column.second], column.share);
-                layer[i++] = std::lerp(above, below, row.share);
-            }
+            const float* upper = values.data() + static_cast<std::size_t>(row.first) * across;
+            const float* lower = values.data() + static_cast<std::size_t>(row.second) * across;
+            for (std::size_t x = 0; x < across; ++x) line[x] = between(upper[x], lower[x], row.share);
+            for (const Between& column : columns)
+                *out++ = between(line[static_cast<std::size_t>(column.first)],
+                                 line[static_cast<std::size_t>(column.second)], column.share);
         }
     }
     return result;

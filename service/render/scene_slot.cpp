@@ -19,6 +19,8 @@ namespace {
 
 /// Width in pixels of the small pictures by which costs and noise of a scene are known.
 constexpr int probeWidth = 96;
+/// Part of a budget that a frame is planned to take: no frame costs quite what is foreseen.
+constexpr double aim = 0.9;
 
 double milliseconds(Clock::duration duration) {
     return std::chrono::duration<double, std::milli>(duration).count();
@@ -142,7 +144,9 @@ std::size_t SceneSlot::findCloud(const CloudReference& cloud) const {
 }
 
 void SceneSlot::apply(const LightChange& change, std::optional<std::size_t> cloud) {
-    if (light_->apply(change, cloud)) ++revision_;
+    if (!light_->apply(change, cloud)) return;
+    ++revision_;
+    if (change.extinction) viewed_.forget();
 }
 
 bool SceneSlot::revert() {
@@ -165,6 +169,7 @@ void SceneSlot::traceGeneration() {
     light_->prove();
     costs_.traced(workedSince(start, pausedBefore));
     lastTraced_ = Clock::now();
+    viewed_.forget();
     tracedAt_.push_back(start);
     while (tracedAt_.size() > static_cast<std::size_t>(renderer_->generations().count)) tracedAt_.pop_front();
     ++revision_;
@@ -224,6 +229,7 @@ void SceneSlot::probeNoise() {
     const Generations ring = renderer_->generations();
     if (!noise_.wants(ring.count) || ring.current < ring.count || renderer_->sunReduction() != 1) return;
     noise_.add(renderer_->draw(smallView(), viewer_), ring.count, ring.photons());
+    viewed_.drawn({smallView()}, renderer_->bounds(), 0.0);
 }
 
 /// Draws a small picture twice: the first one compiles shaders, the second one shows what pictures cost.
@@ -231,21 +237,22 @@ void SceneSlot::learnCosts() {
     const std::vector<View> views{smallView()};
     FrameResult first, second;
     drawViews(views, 1, first);
-    drawViews(views, 1, second);
-    noteDrawn(second, raysOf(views));
+    const double enlarging = drawViews(views, 1, second);
+    noteDrawn(second, workFor(views, 0.0), enlarging);
 }
 
 std::vector<View> SceneSlot::viewsOf(const std::vector<ViewRequest>& requests) const {
     return service::viewsOf(requests, renderer_->sceneView(), renderer_->bounds(), limits_.requests.pixels);
 }
 
-std::uint64_t SceneSlot::raysOf(const std::vector<View>& views) const {
-    std::uint64_t rays = 0;
+/// What drawing the views whole has to do. `time` [s] of the wind.
+CostModel::Work SceneSlot::workFor(const std::vector<View>& views, double time) const {
+    CostModel::Work work{views.size(), viewed_.missing(views, renderer_->bounds(), time), 0, 0};
     for (const View& view : views) {
         const auto across = static_cast<std::uint64_t>(renderer_->raysAcross(view));
-        rays += pixelsOf({view}) * across * across;
+        work.rays += pixelsOf({view}) * across * across;
     }
-    return rays;
+    return work;
 }
 
 bool SceneSlot::needsGeneration(const Job& job, const FrameRequest& frame) const {
@@ -259,12 +266,16 @@ bool SceneSlot::needsGeneration(const Job& job, const FrameRequest& frame) const
     if (!frame.budget.milliseconds) return !job.stream;  // a stream gets what is there
     const double left = *frame.budget.milliseconds - millisecondsSince(job.arrived);
     const std::vector<View> views = viewsOf(frame.views);
-    double after = costs_.drawMs(views.size(), raysOf(views)) + costs_.encodeMs(frame.format.encoding, pixelsOf(views));
+    CostModel::Work work = workFor(views, frame.time);
+    work.lights = std::max<std::uint64_t>(1, work.lights);  // the photons' light has changed then
+    double after = costs_.drawMs(work) + costs_.encodeMs(frame.format.encoding, pixelsOf(views));
     if (renderer_->sunReduction() == 0) after += costs_.sunMs(CostModel::sunShare(CostModel::sunReductions.back()));
     return costs_.traceMs() > 0.0 && costs_.traceMs() + after <= left;
 }
 
-void SceneSlot::drawViews(const std::vector<View>& views, int reduction, FrameResult& result) {
+/// Returns the milliseconds that enlarging reduced pictures took.
+double SceneSlot::drawViews(const std::vector<View>& views, int reduction, FrameResult& result) {
+    double enlarging = 0.0;
     for (const View& view : views) {
         const auto start = Clock::now();
         const auto pausedBefore = paused_;
@@ -272,7 +283,9 @@ void SceneSlot::drawViews(const std::vector<View>& views, int reduction, FrameRe
         ViewResult drawn{renderer_->draw(small, viewer_), 0, 0};
         drawn.drawnWidth = drawn.image.width;
         drawn.drawnHeight = drawn.image.height;
+        const auto whole = Clock::now();
         if (reduction > 1) drawn.image = enlarged(drawn.image, view, small);
+        enlarging += millisecondsSince(whole);
         result.drawMilliseconds += workedSince(start, pausedBefore);
         for (const PassTime& pass : renderer_->statistics().passes)
             if (pass.stage != Stage::photons) result.passes.push_back(pass);
@@ -282,6 +295,7 @@ void SceneSlot::drawViews(const std::vector<View>& views, int reduction, FrameRe
         drawn.image.attributes["samples"] = std::to_string(renderer_->generations().photons());
         result.views.push_back(std::move(drawn));
     }
+    return enlarging;
 }
 
 /// What the passes of photons took since the last frame.
@@ -296,63 +310,50 @@ std::vector<PassTime> SceneSlot::tracePasses() {
     return since;
 }
 
-void SceneSlot::noteDrawn(const FrameResult& result, std::uint64_t rays) {
-    double fixed = 0.0, sun = 0.0;
+void SceneSlot::noteDrawn(const FrameResult& result, CostModel::Work work, double enlarging) {
+    CostModel::Spent spent;
+    double sun = 0.0;
     for (const PassTime& pass : result.passes) {
-        if (pass.stage == Stage::light) fixed += pass.milliseconds;
-        if (pass.stage == Stage::shadowVolume) sun += pass.milliseconds;
+        double& part = pass.stage == Stage::light ? spent.light : pass.stage == Stage::shadowVolume ? sun : spent.rays;
+        part += pass.milliseconds;
     }
     if (sun > 0.0) costs_.lit(sun, CostModel::sunShare(renderer_->sunReduction()));
-    const auto views = static_cast<double>(result.views.size());
-    costs_.drawn(fixed / views, std::max(0.0, result.drawMilliseconds - sun) - fixed * (1.0 - 1.0 / views), rays);
-}
-
-/// What `render` needs to make the same picture, as values of --set.
-std::vector<std::string> SceneSlot::repeatOverrides() const {
-    const Generations ring = renderer_->generations();
-    std::vector<std::string> overrides;
-    if (ring.count > 0)
-        overrides = {fmt::format("photon_map.first_generation={}", ring.first),
-                     fmt::format("photon_map.generations={}", ring.count),
-                     fmt::format("photon_map.photons={}", ring.photons())};
-    const scene::Sun& sun = renderer_->sun();
-    if (const glm::dvec3 d = sun.directionTo; d != scene_.sun.directionTo)
-        overrides.push_back(fmt::format("sun.direction_to=[{},{},{}]", d.x, d.y, d.z));
-    if (const glm::dvec3 e = sun.irradiance; e != scene_.sun.irradiance)
-        overrides.push_back(fmt::format("sun.irradiance=[{},{},{}]", e.x, e.y, e.z));
-    for (std::size_t i = 0; i < scene_.clouds.size(); ++i)
-        if (renderer_->extinction(i) != scene_.clouds[i].extinction)
-            overrides.push_back(fmt::format("cloud.{}.extinction={}", i, renderer_->extinction(i)));
-    return overrides;
+    work.lights = spent.light > 0.0 ? std::max<std::uint64_t>(1, work.lights) : 0;
+    spent.enlarging = enlarging;
+    spent.total = result.drawMilliseconds - sun;
+    costs_.drawn(work, spent);
 }
 
 SceneShown SceneSlot::shown() const {
     const PhotonState ring = photons();
     const double age = tracedAt_.empty() ? 0.0 : millisecondsSince(tracedAt_.front()) / 1e3;
-    return {scene_.source, ring, age, noise_.relMse(ring.photons()), repeatOverrides()};
+    return {scene_.source, ring, age, noise_.relMse(ring.photons()), repeatOverrides(scene_, *renderer_)};
 }
 
 FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {
     const auto start = Clock::now();
     const std::vector<View> views = viewsOf(frame.views);
-    const std::uint64_t pixels = pixelsOf(views), rays = raysOf(views);
+    const std::uint64_t pixels = pixelsOf(views);
+    const CostModel::Work work = workFor(views, frame.time);
     const Encoding encoding = frame.format.encoding;
     FrameResult result;
     result.waitedMilliseconds = milliseconds(start - job.arrived);
     const std::optional<double> limit = frame.budget.milliseconds;
-    const double picture = costs_.drawMs(views.size(), rays) + costs_.encodeMs(encoding, pixels);
-    const double sun = allowSun(limit ? std::optional(*limit - result.waitedMilliseconds) : std::nullopt, picture);
+    const double picture = costs_.drawMs(work) + costs_.encodeMs(encoding, pixels);
+    const double sun =
+        allowSun(limit ? std::optional(aim * *limit - result.waitedMilliseconds) : std::nullopt, picture);
     const double spent = millisecondsSince(job.arrived) + sun;
-    if (limit) result.reduction = costs_.reductionFor(*limit - spent, views.size(), rays, pixels, encoding);
+    if (limit) result.reduction = costs_.reductionFor(aim * *limit - spent, work, pixels, encoding);
 
     renderer_->setTime(frame.time);
+    double enlarging = 0.0;
     {
         const Guarded guarded(*this, job.cancelled.get());
-        drawViews(views, result.reduction, result);
+        enlarging = drawViews(views, result.reduction, result);
     }
+    viewed_.drawn(views, renderer_->bounds(), frame.time);
     countMemory();
-    const auto area = static_cast<std::uint64_t>(result.reduction * result.reduction);
-    noteDrawn(result, result.reduction == 1 ? rays : pixels / area);
+    noteDrawn(result, CostModel::reduced(work, result.reduction, pixels), enlarging);
 
     std::ranges::copy(tracePasses(), std::back_inserter(result.passes));
     result.shown = shown();

@@ -17,6 +17,7 @@
 #include "service/render/noise.h"
 #include "service/render/render_config.h"
 #include "service/render/scheduler.h"
+#include "service/render/viewed_light.h"
 #include "service/telemetry/memory_budget.h"
 #include "service/values/results.h"
 
@@ -122,18 +123,17 @@ class SceneSlot {
     double workedSince(Clock::time_point start, Clock::duration pausedBefore) const;
     void countMemory();
     std::vector<View> viewsOf(const std::vector<ViewRequest>& requests) const;
-    std::uint64_t raysOf(const std::vector<View>& views) const;
+    CostModel::Work workFor(const std::vector<View>& views, double time) const;
     View smallView() const;
     void learnCosts();
     void probeNoise();
     void guard();
     double sharpenShare() const;
     double allowSun(std::optional<double> milliseconds, double picture);
-    void drawViews(const std::vector<View>& views, int reduction, FrameResult& result);
-    void noteDrawn(const FrameResult& result, std::uint64_t rays);
+    double drawViews(const std::vector<View>& views, int reduction, FrameResult& result);
+    void noteDrawn(const FrameResult& result, CostModel::Work work, double enlarging);
     std::vector<PassTime> tracePasses();
     PhotonState photons() const;
-    std::vector<std::string> repeatOverrides() const;
     SceneShown shown() const;
 
     std::string key_;
@@ -152,6 +152,7 @@ class SceneSlot {
     MemoryBudget::Share memory_;
     SceneDescription description_;
     CostModel costs_;
+    ViewedLight viewed_;  ///< by viewer_
     NoiseEstimate noise_;
     std::uint64_t revision_ = 1;
     std::deque<Clock::time_point> tracedAt_;  // of the generations in the ring

@@ -153,8 +153,11 @@ std::optional<SceneState> SceneStore::stateOf(const SceneSlot& slot) const {
 }
 
 bool SceneStore::starves(const SceneSlot& slot, Clock::time_point now) {
-    constexpr auto longestWithoutGeneration = std::chrono::seconds(1);
-    return slot.wantsGeneration() && now - slot.lastTraced() > longestWithoutGeneration;
+    constexpr double longestWithoutGeneration = 1000.0;  // milliseconds
+    constexpr double shareOfTime = 1.0 / 30.0;           // of a generation, which pictures have to wait for
+    const double longest = std::max(longestWithoutGeneration, slot.traceMs() / shareOfTime);
+    return slot.wantsGeneration() &&
+           std::chrono::duration<double, std::milli>(now - slot.lastTraced()).count() > longest;
 }
 
 SlotPointer SceneStore::toRefine(Clock::time_point now, std::optional<Clock::time_point> due) const {

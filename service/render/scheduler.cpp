@@ -16,10 +16,6 @@ std::optional<std::uint32_t> channelOf(const Job& job) {
     return frame->channel;
 }
 
-Clock::duration period(double rate) {
-    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / rate));
-}
-
 }  // namespace
 
 /// Tells those who draw or encode pictures of the client to stop, where `condition(job)` holds.
@@ -69,14 +65,15 @@ void Scheduler::startStream(ClientId id, std::uint64_t stream, StartStream reque
     Client& client = clients_.at(id);
     const auto it = client.streams.find(stream);
     if (it != client.streams.end()) {
-        // not sooner than its rate allows
+        it->second.pace.wish(request, now);
         it->second.request = std::move(request);
         it->second.seen.reset();
         return;
     }
     if (client.streams.size() >= bounds_.streams)
         throw RequestError("busy", std::to_string(bounds_.streams) + " streams run already: stop some first");
-    client.streams.emplace(stream, Stream{std::move(request), now, std::nullopt, 0});
+    const Pace pace(request, now);
+    client.streams.emplace(stream, Stream{std::move(request), pace, std::nullopt});
 }
 
 bool Scheduler::stopStream(ClientId id, std::uint64_t stream) {
@@ -107,16 +104,14 @@ std::optional<Job> Scheduler::takeFrom(ClientId id, Client& client, Clock::time_
     const std::uint64_t current = revision(id);
     auto best = client.streams.end();
     for (auto it = client.streams.begin(); it != client.streams.end(); ++it) {
-        if (it->second.due > now || !wanted(it->second, current)) continue;
-        if (best == client.streams.end() || it->second.due < best->second.due) best = it;
+        if (!wanted(it->second, current) || it->second.pace.next(now) > now) continue;
+        if (best == client.streams.end() || it->second.pace.due() < best->second.pace.due()) best = it;
     }
     if (best == client.streams.end()) return std::nullopt;
     Stream& stream = best->second;
-    Job job{id, best->first, workOf(stream.request.frame), {}, now, true, stream.frames++};
+    const Pace::Frame frame = stream.pace.take(now);
     stream.seen = current;
-    // a frame that comes late does not make those after it come in a bunch
-    stream.due = std::max(stream.due + period(stream.request.maxRate), now);
-    return job;
+    return Job{id, best->first, workOf(stream.request.frame), {}, frame.since, true, frame.number};
 }
 
 std::optional<Job> Scheduler::take(Clock::time_point now, const Revision& revision) {
@@ -190,13 +185,13 @@ void Scheduler::forget(Client& client, std::uint64_t stream) {
     if (const auto it = client.streams.find(stream); it != client.streams.end()) it->second.seen.reset();
 }
 
-std::optional<Clock::time_point> Scheduler::nextDue(const Revision& revision) const {
+std::optional<Clock::time_point> Scheduler::nextDue(Clock::time_point now, const Revision& revision) const {
     std::optional<Clock::time_point> next;
     for (const auto& [id, client] : clients_) {
         if (blocked(client) || client.streams.empty()) continue;
         const std::uint64_t current = revision(id);
         for (const auto& [number, stream] : client.streams)
-            if (wanted(stream, current) && (!next || stream.due < *next)) next = stream.due;
+            if (wanted(stream, current) && (!next || stream.pace.next(now) < *next)) next = stream.pace.next(now);
     }
     return next;
 }

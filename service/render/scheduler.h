@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "service/render/pace.h"
 #include "service/telemetry/memory_budget.h"
 #include "service/values/requests.h"
 
@@ -25,7 +26,7 @@ struct Job {
     std::shared_ptr<MemoryBudget::Share> memory = {};  ///< that the request holds
     Clock::time_point arrived;                         ///< of a stream: when it was due
     bool stream = false;
-    std::uint64_t number = 0;  ///< of the frame in its stream
+    std::uint64_t number = 0;  ///< of the frame in its stream, as Pace counts
     bool begun = false;        ///< whether its light is applied
     std::shared_ptr<std::atomic<bool>> cancelled = std::make_shared<std::atomic<bool>>(false);
 };
@@ -82,7 +83,7 @@ class Scheduler {
     /// A frame of a stream that take() gave is not made: its stream gets another, even if nothing changes.
     void leaveOut(const Job& job);
     /// When the next stream is due that take() would give then; none where only changes bring one.
-    std::optional<Clock::time_point> nextDue(const Revision& revision) const;
+    std::optional<Clock::time_point> nextDue(Clock::time_point now, const Revision& revision) const;
 
     /// A client has taken a picture.
     void frameSent(ClientId client);
@@ -99,9 +100,8 @@ class Scheduler {
   private:
     struct Stream {
         StartStream request;
-        Clock::time_point due;
+        Pace pace;
         std::optional<std::uint64_t> seen;  // revision of the last frame; none after new wishes
-        std::uint64_t frames = 0;
     };
     struct Client {
         std::deque<Job> queue;

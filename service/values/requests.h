@@ -91,10 +91,17 @@ struct FrameRequest {
     PictureFormat format;
 };
 
+/// Moments at which the frames of a stream are due, counted from the request.
+struct Rhythm {
+    double every = 0.0;  ///< milliseconds between them, above 0
+    double phase = 0.0;  ///< milliseconds from the request to the first
+};
+
 struct StartStream {
     FrameRequest frame;
-    double maxRate = 30.0;  ///< frames a second
-    bool onChange = false;  ///< only frames that differ from the one before
+    double maxRate = 30.0;         ///< frames a second, without a rhythm
+    std::optional<Rhythm> rhythm;  ///< absent: a frame that comes late moves those after it
+    bool onChange = false;         ///< only frames that differ from the one before
 };
 
 struct StopStream {

@@ -1,5 +1,7 @@
 #include "base/tonemap.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -59,15 +61,14 @@ std::vector<std::uint8_t> toneMap(const LayeredImage& image, double exposureStop
     const std::array<const float*, 3> channels{image.layers.at("R").data(), image.layers.at("G").data(),
                                                image.layers.at("B").data()};
     std::vector<std::uint8_t> rgb(image.pixels() * 3);
-    std::size_t pixel = 0;
-    for (int y = 0; y < image.height; ++y) {
+    tbb::parallel_for(0, image.height, [&](int y) {
+        std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width);
         for (int x = 0; x < image.width; ++x, ++pixel) {
             const double dither = ditherAt(x, y);
-            for (std::size_t c = 0; c < 3; ++c) {
+            for (std::size_t c = 0; c < 3; ++c)
                 rgb[pixel * 3 + c] = encode(gain * static_cast<double>(channels[c][pixel]), dither);
-            }
         }
-    }
+    });
     return rgb;
 }
 

@@ -37,7 +37,8 @@ DiscCover::DiscCover(const Camera& camera, const glm::dvec3& sunDirection, doubl
             const double reach = angleBetween(camera.ray(x, y).direction, camera.ray(x + 1, y + 1).direction);
             const double whole = solidAngle({x, y}, 1.0, reach > 0.05 ? 64 : 4);
             // all rays of an orthographic view have one direction, and pixels no solid angle
-            pixel.share = whole > 0.0 ? std::min(1.0, pixel.squares.back().before / whole) : 1.0;
+            const bool partial = pixel.crossed && whole > 0.0;
+            pixel.share = partial ? std::min(1.0, pixel.squares.back().before / whole) : 1.0;
             pixels_.emplace(
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(x),
                 std::move(pixel));
@@ -58,13 +59,19 @@ void DiscCover::divide(const glm::dvec2& corner, double edge, Pixel& pixel) cons
         reach = std::max(
             reach, angleBetween(middle, camera_.ray(corner.x + (i & 1) * edge, corner.y + (i >> 1) * edge).direction));
     const double away = angleBetween(middle, sunDirection_);
-    if (away > radius_ + bulge * reach) return;
+    if (away > radius_ + bulge * reach) {
+        pixel.crossed = true;
+        return;
+    }
     const bool rim = away > radius_ - bulge * reach;
     if (rim ? reach > finest * radius_ : reach > flat) {
         for (int i = 0; i < 4; ++i) divide(corner + 0.5 * edge * glm::dvec2(i & 1, i >> 1), 0.5 * edge, pixel);
         return;
     }
-    if (away > radius_) return;
+    if (away > radius_) {
+        pixel.crossed = true;
+        return;
+    }
     const double before = pixel.squares.empty() ? 0.0 : pixel.squares.back().before;
     // an orthographic view has no solid angles: squares count by their area
     const double angle = reach > 0.0 ? solidAngle(corner, edge, 1) : edge * edge;

@@ -16,7 +16,8 @@ class DiscCover {
   public:
     /// The covered part of one pixel.
     struct Pixel {
-        double share = 0.0;  ///< of the pixel's solid angle
+        bool crossed = false;  ///< whether a part of the pixel lies beyond the disc
+        double share = 0.0;    ///< of the pixel's solid angle
         /// A point of the covered part in pixel coordinates, all of its directions equally likely.
         glm::dvec2 sample(Random& random) const;
 

@@ -107,7 +107,7 @@ class Reference(CliTest):
             self.sums.unlink(missing_ok=True)
             if sums is not None:
                 self.sums.write_bytes(sums)
-            result = self.run_lumulus("reference", self.path, "-o", self.picture, "--resume", "--spp", 3)
+            result = self.run_lumulus("reference", self.path, "-o", self.picture, "--resume", "--spp", 3, "--quiet")
             self.assertIn(says, self.one_line(result, 2))
             self.assertEqual(self.picture.read_bytes(), before["a.exr"])
 
@@ -132,7 +132,7 @@ absorption = 0.05
         self.assertEqual(set(image["cloud.A"]), {1.0})
         self.assertEqual(set(image["transmittance.R"]), {0.0})
         self.assertTrue(all(10.0 <= depth < 12.0 for depth in image["depth.Z"]))
-        result = self.run_lumulus("reference", self.path, "-o", self.picture, "--resume", "--spp", 300,
+        result = self.run_lumulus("reference", self.path, "-o", self.picture, "--resume", "--spp", 300, "--quiet",
                                   "--set", "surface.0.emission=1")
         self.assertIn("another scene", self.one_line(result, 2))
 

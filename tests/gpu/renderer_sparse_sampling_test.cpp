@@ -106,10 +106,14 @@ TEST_P(SparseSampling, TheSunsDiscIsNotSpread) {
     scene.sun.directionTo = dvec3(0.08, 0.05, -1.0) / glm::length(dvec3(0.08, 0.05, -1.0));
     scene.sun.angularDiameter = 1.0;
     const LayeredImage every = drawn(scene, 0.0).image, some = drawn(scene, 0.4).image;
+    // the disc shines through by the pixel's transmittance, which interpolation changes by less than the tolerance
+    constexpr double tolerance = 0.4;
     std::size_t bright = 0;
     for (std::size_t i = 0; i < every.pixels(); ++i) {
-        if (value(every, "R", i) < 1000.0) continue;
-        ASSERT_EQ(value(some, "R", i), value(every, "R", i)) << i;
+        const bool sees = value(every, "R", i) >= 1000.0;
+        ASSERT_EQ(value(some, "R", i) >= 1000.0, sees) << i;
+        if (!sees) continue;
+        ASSERT_NEAR(value(some, "R", i), value(every, "R", i), 0.1 * tolerance * value(every, "R", i)) << i;
         ++bright;
     }
     EXPECT_GE(bright, 5U);

@@ -11,6 +11,7 @@
 #include "service/render/cost_model.h"
 #include "service/render/noise.h"
 #include "service/render/resample.h"
+#include "service/render/viewed_light.h"
 
 namespace lumulus::service {
 namespace {
@@ -30,20 +31,35 @@ LayeredImage picture(int width, int height, float (*value)(int, int)) {
 
 TEST(CostModel, ForeseesWhatItHasSeen) {
     CostModel costs;
-    costs.drawn(10.0, 110.0, 100'000);
-    EXPECT_DOUBLE_EQ(costs.drawMs(1, 200'000), 210.0);
-    EXPECT_DOUBLE_EQ(costs.drawMs(2, 100'000), 120.0);
+    costs.drawn({1, 1, 100'000, 0}, {10.0, 100.0, 0.0, 113.0});  // 3 ms for a view
+    EXPECT_DOUBLE_EQ(costs.drawMs({1, 1, 200'000, 0}), 213.0);
+    EXPECT_DOUBLE_EQ(costs.drawMs({2, 1, 100'000, 0}), 116.0);
+    EXPECT_DOUBLE_EQ(costs.drawMs({1, 0, 100'000, 0}), 103.0) << "the eye is where it was";
+    costs.drawn({1, 0, 25'000, 100'000}, {0.0, 25.0, 2.0, 30.0});
+    EXPECT_DOUBLE_EQ(costs.drawMs({1, 1, 25'000, 50'000}), 39.0);
     costs.encoded(Encoding::jpeg, 20.0, 100'000);
     EXPECT_DOUBLE_EQ(costs.encodeMs(Encoding::jpeg, 50'000), 10.0);
     EXPECT_EQ(costs.encodeMs(Encoding::exr, 50'000), 0.0);
     for (int i = 0; i < 60; ++i) costs.traced(50.0);
-    EXPECT_NEAR(costs.traceMs(), 50.0, 1e-6);
+    EXPECT_DOUBLE_EQ(costs.traceMs(), 50.0);
+}
+
+TEST(CostModel, OneSlowFrameIsNotTheRule) {
+    CostModel costs;
+    for (const double milliseconds : {20.0, 21.0, 900.0}) costs.traced(milliseconds);
+    EXPECT_DOUBLE_EQ(costs.traceMs(), 450.0) << "it may be";
+    for (const double milliseconds : {22.0, 20.0}) costs.traced(milliseconds);
+    EXPECT_DOUBLE_EQ(costs.traceMs(), 21.0);
+    for (int i = 0; i < 3; ++i) costs.traced(60.0);
+    EXPECT_DOUBLE_EQ(costs.traceMs(), 60.0) << "three are";
 }
 
 TEST(CostModel, ReducesAsFarAsTheDeadlineAsks) {
     CostModel costs;
-    costs.drawn(10.0, 410.0, 100'000);  // 4 ms for 1000 pixels
-    const auto reduction = [&](double ms) { return costs.reductionFor(ms, 1, 100'000, 100'000, Encoding::half); };
+    costs.drawn({1, 1, 100'000, 0}, {10.0, 400.0, 0.0, 410.0});  // 4 ms for 1000 rays
+    const auto reduction = [&](double ms, std::uint64_t rays = 100'000) {
+        return costs.reductionFor(ms, {1, 1, rays, 0}, 100'000, Encoding::half);
+    };
     EXPECT_EQ(reduction(410.0), 1);
     EXPECT_EQ(reduction(409.0), 2);
     EXPECT_EQ(reduction(110.0), 2);
@@ -51,7 +67,30 @@ TEST(CostModel, ReducesAsFarAsTheDeadlineAsks) {
     EXPECT_EQ(reduction(1.0), 8);
     EXPECT_EQ(reduction(-5.0), 8);
     // pixels larger than voxels have many rays: those go first
-    EXPECT_EQ(costs.reductionFor(300.0, 1, 1'600'000, 100'000, Encoding::half), 2);
+    EXPECT_EQ(reduction(300.0, 1'600'000), 2);
+    costs.drawn({1, 1, 25'000, 100'000}, {10.0, 100.0, 20.0, 130.0});
+    EXPECT_EQ(reduction(129.0), 3) << "enlarging takes its time too";
+}
+
+TEST(ViewedLight, IsMadeForEachEyeThatIsNew) {
+    const Bounds clouds{glm::dvec3(0.0), glm::dmat3(1.0), {}};
+    const auto from = [](double x) {
+        View view;
+        view.camera.position = glm::dvec3(x, 0.0, 9.0);
+        view.camera.target = glm::dvec3(0.0);
+        view.image = {16, 9, 0.0};
+        return view;
+    };
+    View wide = from(1.0);
+    wide.camera.verticalFov = 90.0;
+    ViewedLight light;
+    EXPECT_EQ(light.missing({from(1.0), wide, from(2.0)}, clouds, 0.0), 2U);
+    light.drawn({from(2.0), from(1.0)}, clouds, 0.0);
+    EXPECT_EQ(light.missing({wide, wide}, clouds, 0.0), 0U);
+    EXPECT_EQ(light.missing({wide, from(2.0), wide}, clouds, 0.0), 2U);
+    EXPECT_EQ(light.missing({wide}, clouds, 1.0), 1U) << "the wind moves the clouds";
+    light.forget();
+    EXPECT_EQ(light.missing({wide}, clouds, 0.0), 1U);
 }
 
 TEST(Resample, ALinearPictureStaysLinear) {

@@ -48,7 +48,8 @@ class Files(PageTest):
         browser.wait(lambda: browser.link().get("file") == "ball.vdb")
         self.assertNotIn("upload", browser.notices())
         self.assertEqual(self.uploads(), [browser.link()["vdb"] + ".vdb"])
-        self.assertEqual(browser.run("return document.getElementById('scene').selectedOptions[0].text"), "ball.vdb")
+        chosen = "return document.getElementById('scene').selectedOptions[0].text"
+        browser.wait(lambda: browser.run(chosen) == "ball.vdb")
         before = browser.frames()
         browser.wait(lambda: browser.frames() > before)
         link = browser.run("return location.hash")

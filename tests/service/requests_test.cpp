@@ -49,6 +49,22 @@ TEST(Requests, AFrameSaysWhatItSays) {
     EXPECT_THAT(frame.products, testing::ElementsAre(Product::color, Product::depth));
 }
 
+TEST(Requests, AStreamHasARateOrARhythm) {
+    const auto stream = [](const char* json) { return request(MessageType::startStream, json); };
+    const auto start = std::get<StartStream>(parseRequest(stream(R"({"every":33.3,"phase":12})"), {}));
+    ASSERT_TRUE(start.rhythm);
+    EXPECT_EQ(start.rhythm->every, 33.3);
+    EXPECT_EQ(start.rhythm->phase, 12.0);
+    EXPECT_EQ(std::get<StartStream>(parseRequest(stream(R"({"every":50})"), {})).rhythm->phase, 0.0);
+    EXPECT_FALSE(std::get<StartStream>(parseRequest(stream(R"({"max_rate":5})"), {})).rhythm);
+    EXPECT_EQ(refusal(stream(R"({"phase":12})")), "bad_request: phase");
+    EXPECT_EQ(refusal(stream(R"({"every":50,"phase":-1})")), "bad_request: phase");
+    EXPECT_EQ(refusal(stream(R"({"every":0})")), "bad_request: every");
+    EXPECT_EQ(refusal(stream(R"({"every":1e9})")), "bad_request: every");
+    EXPECT_EQ(refusal(stream(R"({"every":50,"max_rate":5})")), "bad_request: max_rate");
+    EXPECT_EQ(refusal(request(MessageType::frame, R"({"every":50})")), "bad_request: every");
+}
+
 TEST(Requests, HostileFramesAreRefusedByField) {
     EXPECT_EQ(frameRefusal(R"({"camera":{"position":[1e999,0,0]}})"), "bad_request: ");
     EXPECT_EQ(frameRefusal(R"({"camera":{"position":[NaN,0,0]}})"), "bad_request: ");

@@ -49,7 +49,7 @@ class SchedulerTest : public testing::Test {
         return scheduler.take(now, [this](ClientId) { return revision; });
     }
     std::optional<Clock::time_point> due() {
-        return scheduler.nextDue([this](ClientId) { return revision; });
+        return scheduler.nextDue(now, [this](ClientId) { return revision; });
     }
 };
 
@@ -130,6 +130,37 @@ TEST_F(SchedulerTest, StreamsKeepTheirRate) {
     EXPECT_TRUE(scheduler.stopStream(1, 7));
     EXPECT_FALSE(scheduler.stopStream(1, 7));
     EXPECT_FALSE(due());
+}
+
+TEST_F(SchedulerTest, ARhythmGoesOnHoweverLateAFrameIs) {
+    const Clock::time_point begin = now;
+    StartStream start;
+    start.rhythm = Rhythm{40.0, 15.0};
+    scheduler.startStream(1, 7, start, now);
+    /// Number of the frame that is due after so many milliseconds, and the milliseconds from which it counts.
+    const auto frameAt = [&](int after) -> std::pair<int, int> {
+        now = begin + milliseconds(after);
+        const auto job = take();
+        if (!job) return {-1, -1};
+        scheduler.done(*job);
+        const auto since = std::chrono::duration_cast<milliseconds>(job->arrived - begin);
+        return {static_cast<int>(job->number), static_cast<int>(since.count())};
+    };
+    const std::pair nothing(-1, -1);
+    EXPECT_EQ(due(), begin + milliseconds(15));
+    EXPECT_EQ(frameAt(14), nothing);
+    EXPECT_EQ(frameAt(15), std::pair(0, 15));
+    EXPECT_EQ(frameAt(58), std::pair(1, 55)) << "late by a little: the time counts from its moment";
+    EXPECT_EQ(frameAt(185), std::pair(4, 175)) << "moments that have passed are left out, and count";
+    EXPECT_EQ(frameAt(236), nothing) << "late by more than half: the next moment is waited for";
+    EXPECT_EQ(due(), begin + milliseconds(255));
+    scheduler.startStream(1, 7, start, now);  // new wishes, the same rhythm
+    EXPECT_EQ(frameAt(255), std::pair(6, 255));
+    start.rhythm->phase = 5.0;
+    now = begin + milliseconds(260);
+    scheduler.startStream(1, 7, start, now);
+    EXPECT_EQ(frameAt(264), nothing);
+    EXPECT_EQ(frameAt(265), std::pair(7, 265)) << "another rhythm counts on";
 }
 
 TEST_F(SchedulerTest, AStreamOfChangesSleepsWithoutThem) {
