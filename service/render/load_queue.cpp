@@ -27,7 +27,7 @@ std::optional<LoadQueue::Entry> LoadQueue::take(std::span<const Running> running
                                                 Clock::time_point now) {
     constexpr auto longestWait = std::chrono::seconds(10);
     const bool largeRuns = std::ranges::any_of(running, &Running::large);
-    std::set<ClientId> busy;  // clients whose turn it is not
+    std::set<ClientId> busy;  // clients of which nothing may begin
     for (const Running& one : running) busy.insert(one.client);
     const auto rank = [&](const Entry& entry) {
         if (!entry.source) return std::tuple(0, 0.0, entry.since);

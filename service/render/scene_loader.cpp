@@ -150,7 +150,7 @@ void SceneLoader::loop(Lane& lane) {
     }
 }
 
-/// Looks what a load is of, and lets it wait for its turn.
+/// Looks what a load is of, and lets it wait until a loader is free.
 void SceneLoader::findSource(Lane& lane, LoadQueue::Entry entry) {
     const LoadJob job = entry.job;
     answer(job, [&] {
