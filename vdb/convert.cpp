@@ -43,6 +43,14 @@ Affine voxelToIndex(const IndexBox& crop, std::int64_t n) {
     return affine;
 }
 
+/// Bytes that a volume which is averaged anyway is worth.
+double mostBytes(const Survey& survey) {
+    constexpr double bytesPerVoxel = 2.0, voxelsPerBlock = 4096.0, always = 1048576.0;
+    const auto filled =
+        std::ranges::count_if(survey.blocks, [](const BlockContent& block) { return block.voxels > 0; });
+    return bytesPerVoxel * std::max(always, voxelsPerBlock * static_cast<double>(filled));
+}
+
 /// Makes the volume of one grid step by step.
 class Converter {
   public:
@@ -58,7 +66,7 @@ class Converter {
 
     LoadResult convert(openvdb::FloatTree& tree) {
         SparseField field = listBlocks(tree);
-        const Survey survey = surveyField(field);
+        const Survey survey = surveyField(field, options_.limits.check);
         hasActive_ = tree.activeVoxelCount() > 0;
         warnOfBackground(static_cast<double>(tree.background()));
         mendValues(survey, field);
@@ -66,7 +74,7 @@ class Converter {
         const std::int64_t n = fitLimits(box, survey);
         std::string name = std::move(result_.volume.name);
         result_.wantedMiB = wantedMiB(box, options_.maxExtent);
-        result_.volume = rasteriseField(field, box, n);
+        result_.volume = rasteriseField(field, box, n, options_.limits.check);
         result_.voxelToGrid = voxelToIndex(box, n);
         result_.volume.toWorld = composed(result_.gridToWorld, result_.voxelToGrid);
         result_.volume.name = std::move(name);
@@ -125,7 +133,8 @@ class Converter {
     std::int64_t fitLimits(const IndexBox& box, const Survey& survey) {
         const glm::i64vec3 extent = box.extent();
         const double budget = options_.memoryBudgetMiB * 1024.0 * 1024.0;
-        const std::int64_t n = chooseCoarsening(extent, budget, options_.maxExtent);
+        std::int64_t n = chooseCoarsening(extent, budget, options_.maxExtent);
+        if (n > 1) n = chooseCoarsening(extent, std::min(budget, mostBytes(survey)), options_.maxExtent);
         if (n == 0)
             throw InputError(fmt::format("not even one voxel fits the memory budget of {} MiB and {} voxels a side",
                                          options_.memoryBudgetMiB, options_.maxExtent),
@@ -169,17 +178,6 @@ class Converter {
 };
 
 }  // namespace
-
-std::vector<GridLabel> labelsOf(const openvdb::GridPtrVec& grids) {
-    std::vector<GridLabel> labels;
-    for (const openvdb::GridBase::Ptr& grid : grids) {
-        GridLabel label{grid->getName(), valueType(*grid), isScalar(*grid),
-                        grid->getGridClass() == openvdb::GRID_LEVEL_SET};
-        if (label.isScalar) label.hasContent = [grid] { return hasContent(*grid); };
-        labels.push_back(std::move(label));
-    }
-    return labels;
-}
 
 LoadResult convert(const openvdb::GridBase::Ptr& grid, const LoadOptions& options, const std::string& file) {
     Converter converter(*grid, options, file);

@@ -3,16 +3,11 @@
 #include <openvdb/openvdb.h>
 
 #include <string>
-#include <vector>
 
-#include "vdb/choose_grid.h"
 #include "vdb/load.h"
 
 /// Making a volume from a grid that is in memory (inside vdb/ only: the header costs seconds).
 namespace lumulus::vdb {
-
-/// What the choice of a grid needs to know of each. The labels point to the grids.
-std::vector<GridLabel> labelsOf(const openvdb::GridPtrVec& grids);
 
 /// Makes a volume from a scalar grid and sets its inactive values to 0. `file` stands in messages for the file.
 /// Errors: those of load().

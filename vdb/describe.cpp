@@ -118,12 +118,14 @@ GridInfo describeGrid(const openvdb::GridBase& grid) {
 }  // namespace
 
 std::vector<GridInfo> describe(const std::filesystem::path& path) {
-    const openvdb::GridPtrVec grids = readGrids(path);
-    const std::vector<GridLabel> labels = labelsOf(grids);
+    const ReadLimits limits;
+    GridFile file(path, limits);
+    const openvdb::GridPtrVec& grids = file.grids();
+    const std::vector<GridLabel> labels = file.labels();
     std::vector<GridInfo> infos;
     for (std::size_t i = 0; i < grids.size(); ++i) {
         stopIfInterrupted();
-        infos.push_back(describeGrid(*grids[i]));
+        infos.push_back(describeGrid(*file.read(i)));
     }
     try {
         infos[chooseGrid(labels, "", path.string(), "cloud.0.grid").index].taken = true;

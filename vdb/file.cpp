@@ -1,7 +1,5 @@
 #include "vdb/file.h"
 
-#include <openvdb/io/Stream.h>
-
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -10,10 +8,11 @@
 
 #include "base/error.h"
 #include "base/file_kind.h"
-#include "base/interrupt.h"
 #include "vdb/chunks.h"
+#include "vdb/grid_archive.h"
 #include "vdb/header.h"
 #include "vdb/nano.h"
+#include "vdb/tree_field.h"
 
 namespace lumulus::vdb {
 namespace {
@@ -23,18 +22,6 @@ namespace fs = std::filesystem;
 [[noreturn]] void refuse(const fs::path& path, const std::string& what, const std::string& mend) {
     throw InputError(what, path.string(), mend);
 }
-
-/// A file whose reading Ctrl-C can end; OpenVDB has no other way to stop.
-class InterruptibleFile : public std::filebuf {
-  public:
-    explicit InterruptibleFile(const fs::path& path) { open(path, std::ios::in | std::ios::binary); }
-
-  protected:
-    std::streamsize xsgetn(char* to, std::streamsize bytes) override {
-        stopIfInterrupted();
-        return std::filebuf::xsgetn(to, bytes);
-    }
-};
 
 [[noreturn]] void refuseForeign(const fs::path& path, std::string_view start) {
     if (const auto foreign = foreignFile(start))
@@ -73,13 +60,46 @@ void checkHeader(const fs::path& path, std::string_view start) {
     }
 }
 
+/// Says what is wrong with a file, after an exception of OpenVDB or of the stream. The flags of the stream tell why it
+/// threw; an archive that could not be made has none.
+[[noreturn]] void refuseDamaged(const fs::path& path, bool ended) {
+    try {
+        throw;
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        if (!ended)
+            refuse(path, "the file asks for more memory than there is", "it is damaged, or too large for this machine");
+    } catch (const std::exception& error) {
+        if (!ended)
+            refuse(path, std::string("the file is damaged or of an unknown kind: ") + error.what(), "write it again");
+    } catch (...) {
+        refuse(path, "the file is damaged", "write it again");
+    }
+    refuse(path, "the file is truncated: it ends in the middle of a grid", "copy or write it again");
+}
+
+/// Runs a step of reading.
+template <typename Step>
+void readStep(const fs::path& path, GridArchive& archive, const Step& step) {
+    try {
+        step();
+    } catch (...) {
+        archive.rethrow();
+        refuseDamaged(path, archive.ended());
+    }
+}
+
 }  // namespace
 
-openvdb::GridPtrVec readGrids(const fs::path& path) {
+GridFile::GridFile(const fs::path& path, const ReadLimits& limits) : path_(path) {
     openvdb::initialize();
     guardChunks();
     const std::string start = checkedStart(path);
-    if (isNanoVdb(start)) return readNanoGrids(path);
+    if (isNanoVdb(start)) {
+        grids_ = readNanoGrids(path, limits);
+        return;
+    }
     if (!isOpenVdb(start)) {
         // a file that ends within the first eight bytes may have been one
         if (std::string_view(" BDV\0\0\0\0", 8).starts_with(start))
@@ -87,31 +107,29 @@ openvdb::GridPtrVec readGrids(const fs::path& path) {
         refuseForeign(path, start);
     }
     checkHeader(path, start);
-    InterruptibleFile file(path);
-    std::istream in(&file);
-    // io::File reads truncated files without an error; a stream that throws does not. The flags tell why it threw.
-    bool ended = false;
-    try {
-        in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
-        constexpr bool delayed = false;
-        openvdb::io::Stream stream(in, delayed);
-        const openvdb::GridPtrVecPtr grids = stream.getGrids();
-        if (!grids || grids->empty()) refuse(path, "the file holds no grids", "write it with a float grid \"density\"");
-        return *grids;
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        ended = in.eof();
-        if (!ended)
-            refuse(path, "the file asks for more memory than there is", "it is damaged, or too large for this machine");
-    } catch (const std::exception& error) {
-        ended = in.eof();
-        if (!ended)
-            refuse(path, std::string("the file is damaged or of an unknown kind: ") + error.what(), "write it again");
-    } catch (...) {
-        refuse(path, "the file is damaged", "write it again");
+    archive_ = std::make_unique<GridArchive>(path, limits);
+    readStep(path, *archive_, [&] { archive_->readHeads(); });
+    grids_ = archive_->grids();
+    if (grids_.empty()) refuse(path, "the file holds no grids", "write it with a float grid \"density\"");
+}
+
+GridFile::~GridFile() = default;
+
+openvdb::GridBase::Ptr GridFile::read(std::size_t index) {
+    if (archive_) readStep(path_, *archive_, [&] { archive_->read(index); });
+    return grids_[index];
+}
+
+std::vector<GridLabel> GridFile::labels() {
+    std::vector<GridLabel> labels;
+    for (std::size_t i = 0; i < grids_.size(); ++i) {
+        const openvdb::GridBase& grid = *grids_[i];
+        GridLabel label{grid.getName(), valueType(grid), isScalar(grid),
+                        grid.getGridClass() == openvdb::GRID_LEVEL_SET};
+        if (label.isScalar) label.hasContent = [this, i] { return hasContent(*read(i)); };
+        labels.push_back(std::move(label));
     }
-    refuse(path, "the file is truncated: it ends in the middle of a grid", "copy or write it again");
+    return labels;
 }
 
 std::string valueType(const openvdb::GridBase& grid) {

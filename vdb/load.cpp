@@ -12,9 +12,9 @@
 namespace lumulus::vdb {
 
 LoadResult load(const std::filesystem::path& path, const LoadOptions& options) {
-    const openvdb::GridPtrVec grids = readGrids(path);
-    GridChoice choice = chooseGrid(labelsOf(grids), options.grid, path.string(), options.keys + ".grid");
-    const openvdb::GridBase::Ptr& grid = grids[choice.index];
+    GridFile file(path, options.limits);
+    GridChoice choice = chooseGrid(file.labels(), options.grid, path.string(), options.keys + ".grid");
+    const openvdb::GridBase::Ptr grid = file.read(choice.index);
     try {
         LoadResult result = convert(grid, options, path.string());
         result.warnings.insert(result.warnings.begin(), std::make_move_iterator(choice.warnings.begin()),

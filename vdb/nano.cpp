@@ -1,17 +1,18 @@
 #include "vdb/nano.h"
 
 #include <blosc.h>
+#include <fmt/format.h>
 #include <nanovdb/util/IO.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <exception>
 #include <fstream>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "vdb/nano_tree.h"
 
 namespace lumulus::vdb {
@@ -20,15 +21,21 @@ namespace {
 namespace fs = std::filesystem;
 using nanovdb::io::Codec;
 
+/// Carries what the check threw past those who look for damage.
+struct Stopped {
+    std::exception_ptr by;
+};
+
 /// Reads a file and knows how much is left of it.
 class Bytes {
   public:
-    explicit Bytes(const fs::path& path) : in_(path, std::ios::binary), left_(fs::file_size(path)) {}
+    Bytes(const fs::path& path, const ReadLimits& limits)
+        : in_(path, std::ios::binary), path_(path), limits_(limits), left_(fs::file_size(path)) {}
 
     std::uint64_t left() const { return left_; }
 
     void read(void* to, std::uint64_t bytes) {
-        stopIfInterrupted();
+        check();
         if (bytes > left_) throw DamagedGrid("it ends in the middle of a grid");
         in_.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes));
         if (!in_) throw DamagedGrid("it cannot be read to its end");
@@ -48,9 +55,30 @@ class Bytes {
         left_ -= bytes;
     }
 
+    void check() const {
+        try {
+            limits_.check();
+        } catch (...) {
+            throw Stopped{std::current_exception()};
+        }
+    }
+
+    /// Foresees memory of a grid and its tree. Errors: InputError where all of them take more than the limit.
+    void foresee(std::uint64_t bytes) {
+        constexpr double bytesPerMiB = 1048576.0;
+        foreseen_ += static_cast<double>(bytes) / bytesPerMiB;
+        if (foreseen_ > limits_.treeMiB)
+            throw InputError(fmt::format("the grids take more than {:g} MiB while they are read", limits_.treeMiB),
+                             path_.string(),
+                             "give them fewer voxels, divide the file, or raise preparation.memory_budget");
+    }
+
   private:
     std::ifstream in_;
+    const fs::path& path_;
+    const ReadLimits& limits_;
     std::uint64_t left_;
+    double foreseen_ = 0.0;  ///< MiB
 };
 
 /// What a file says of a grid before its bytes.
@@ -86,11 +114,20 @@ void unblosc(Bytes& file, const NanoBytes& to) {
     }
 }
 
+/// About what the tree of floats takes: as the grid, where that is not quantised.
+std::uint64_t treeBytes(const nanovdb::io::MetaData& grid) {
+    constexpr std::uint64_t mostQuantised = 8;  // 4 bits instead of 32
+    using Type = nanovdb::GridType;
+    const bool full = grid.gridType == Type::Float || grid.gridType == Type::Double;
+    return grid.gridSize * (full ? 1 : mostQuantised);
+}
+
 NanoBytes readGrid(Bytes& file, const Entry& entry, Codec codec) {
     constexpr std::uint64_t mostPacked = 4096;  // times smaller than the grid; more is no real file
     const std::uint64_t size = entry.data.gridSize;
     if (size / (codec == Codec::NONE ? 1 : mostPacked) > file.left())
         throw DamagedGrid("it ends in the middle of a grid");
+    file.foresee(size + treeBytes(entry.data));
     NanoBytes bytes(size);
     if (codec == Codec::NONE)
         file.read(bytes.data(), size);
@@ -142,7 +179,7 @@ openvdb::GridBase::Ptr toGrid(Bytes& file, const Entry& entry, Codec codec) {
         const NanoBytes bytes = readGrid(file, entry, codec);
         const nanovdb::GridData& head = nanoHead(bytes);
         if (head.mGridType != entry.data.gridType) throw DamagedGrid("a grid is not of the type that the file says");
-        grid = openvdb::FloatGrid::create(nanoTree(bytes));
+        grid = openvdb::FloatGrid::create(nanoTree(bytes, [&] { file.check(); }));
         grid->setTransform(transformOf(head.mMap));
     } else {
         file.skip(entry.data.fileSize);
@@ -181,8 +218,8 @@ std::vector<Entry> readEntries(Bytes& file, std::size_t count) {
     return entries;
 }
 
-openvdb::GridPtrVec readAll(const fs::path& path) {
-    Bytes file(path);
+openvdb::GridPtrVec readAll(const fs::path& path, const ReadLimits& limits) {
+    Bytes file(path, limits);
     openvdb::GridPtrVec grids;
     while (file.left() > 0) {
         nanovdb::io::Header header;
@@ -201,11 +238,13 @@ openvdb::GridPtrVec readAll(const fs::path& path) {
 
 }  // namespace
 
-openvdb::GridPtrVec readNanoGrids(const fs::path& path) {
+openvdb::GridPtrVec readNanoGrids(const fs::path& path, const ReadLimits& limits) {
     try {
-        openvdb::GridPtrVec grids = readAll(path);
+        openvdb::GridPtrVec grids = readAll(path, limits);
         if (grids.empty()) throw InputError("the file holds no grids", path.string(), "write it with a float grid");
         return grids;
+    } catch (const Stopped& stopped) {
+        std::rethrow_exception(stopped.by);
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {

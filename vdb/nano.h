@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "vdb/read_limits.h"
+
 /// Reading NanoVDB files (inside vdb/ only: the header costs seconds).
 namespace lumulus::vdb {
 
@@ -12,8 +14,8 @@ inline constexpr const char* nanoTypeName = "nanovdb_type";
 
 /// Reads all grids of a NanoVDB file, unpacked (ZIP, Blosc). Float and double grids and the quantised ones of 4, 8, 16
 /// and a varying number of bits become float grids with the active values; of all others only names and types are
-/// kept, in grids without voxels. Throws InputError for truncated and damaged files and for versions other than 32,
-/// Error if interrupted.
-openvdb::GridPtrVec readNanoGrids(const std::filesystem::path& path);
+/// kept, in grids without voxels. Throws InputError for truncated and damaged files and for versions other than 32
+/// and for grids that take more than the limit; what the check of the limits throws.
+openvdb::GridPtrVec readNanoGrids(const std::filesystem::path& path, const ReadLimits& limits);
 
 }  // namespace lumulus::vdb

@@ -21,7 +21,7 @@ class Walk {
     static constexpr int lowerBits = 4, upperBits = 5;   // of the number of children along an edge
 
   public:
-    explicit Walk(const NanoBytes& bytes) : bytes_(bytes) {}
+    Walk(const NanoBytes& bytes, const Check& check) : bytes_(bytes), check_(check) {}
 
     openvdb::FloatTree::Ptr run() {
         constexpr std::int64_t treeAt = sizeof(nanovdb::GridData);
@@ -53,7 +53,7 @@ class Walk {
 
     template <int bits, int childEdge, typename Node>
     void goThrough(const Node& node, const Coord& origin, openvdb::Index level) {
-        stopIfInterrupted();
+        check_();
         spend(sizeof(Node));
         constexpr std::uint32_t children = 1U << (3 * bits), mask = (1U << bits) - 1;
         const std::int64_t here = bytes_.positionOf(&node);
@@ -92,26 +92,27 @@ class Walk {
     }
 
     const NanoBytes& bytes_;
+    const Check& check_;
     std::size_t spent_ = 0;
     openvdb::FloatTree::Ptr tree_;
 };
 
 }  // namespace
 
-openvdb::FloatTree::Ptr nanoTree(const NanoBytes& bytes) {
+openvdb::FloatTree::Ptr nanoTree(const NanoBytes& bytes, const Check& check) {
     switch (nanoHead(bytes).mGridType) {
         case nanovdb::GridType::Float:
-            return Walk<float>(bytes).run();
+            return Walk<float>(bytes, check).run();
         case nanovdb::GridType::Double:
-            return Walk<double>(bytes).run();
+            return Walk<double>(bytes, check).run();
         case nanovdb::GridType::Fp4:
-            return Walk<nanovdb::Fp4>(bytes).run();
+            return Walk<nanovdb::Fp4>(bytes, check).run();
         case nanovdb::GridType::Fp8:
-            return Walk<nanovdb::Fp8>(bytes).run();
+            return Walk<nanovdb::Fp8>(bytes, check).run();
         case nanovdb::GridType::Fp16:
-            return Walk<nanovdb::Fp16>(bytes).run();
+            return Walk<nanovdb::Fp16>(bytes, check).run();
         case nanovdb::GridType::FpN:
-            return Walk<nanovdb::FpN>(bytes).run();
+            return Walk<nanovdb::FpN>(bytes, check).run();
         default:
             throw std::invalid_argument("not a grid of scalars");
     }

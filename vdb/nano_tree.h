@@ -8,6 +8,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "base/interrupt.h"
+
 /// From the bytes of a NanoVDB grid to an OpenVDB tree (inside vdb/ only: the headers cost seconds).
 namespace lumulus::vdb {
 
@@ -54,7 +56,7 @@ inline const nanovdb::GridData& nanoHead(const NanoBytes& bytes) {
 }
 
 /// The tree of a grid of scalars: its background and its active values as floats. Errors: DamagedGrid where a node lies
-/// outside of the bytes or is shared, std::invalid_argument for a grid of another type, Error if interrupted.
-openvdb::FloatTree::Ptr nanoTree(const NanoBytes& bytes);
+/// outside of the bytes or is shared, std::invalid_argument for a grid of another type, what `check` throws.
+openvdb::FloatTree::Ptr nanoTree(const NanoBytes& bytes, const Check& check);
 
 }  // namespace lumulus::vdb

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/interrupt.h"
-
 namespace lumulus::vdb {
 namespace {
 
@@ -52,7 +50,7 @@ void addDepth(const Volume& volume, int y, Columns& alongZ) {
 
 }  // namespace
 
-ColumnSums columnSums(const Volume& volume) {
+ColumnSums columnSums(const Volume& volume, const Check& check) {
     const glm::ivec3 size = volume.size;
     if (volume.density.empty()) return {};
     // a value for each slice, so that the order of threads does not matter
@@ -61,11 +59,11 @@ ColumnSums columnSums(const Volume& volume) {
     along[1].resize(static_cast<std::size_t>(size.z));
     along[2].resize(static_cast<std::size_t>(size.y));
     tbb::parallel_for(0, size.z, [&](int z) {
-        stopIfInterrupted();
+        check();
         addSlice(volume, z, along[0][static_cast<std::size_t>(z)], along[1][static_cast<std::size_t>(z)]);
     });
     tbb::parallel_for(0, size.y, [&](int y) {
-        stopIfInterrupted();
+        check();
         addDepth(volume, y, along[2][static_cast<std::size_t>(y)]);
     });
     ColumnSums result;

@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 
+#include "base/interrupt.h"
 #include "vdb/volume.h"
 
 namespace lumulus::vdb {
@@ -12,8 +13,8 @@ struct ColumnSums {
     glm::dvec3 mean{0.0};  ///< over the columns that meet the cloud
 };
 
-/// Errors: Error if interrupted.
-ColumnSums columnSums(const Volume& volume);
+/// Errors: what `check` throws, which is asked on any thread.
+ColumnSums columnSums(const Volume& volume, const Check& check = stopIfInterrupted);
 
 /// Optical thickness of a cloud along the three axes of its grid, from edge to edge.
 struct OpticalThickness {

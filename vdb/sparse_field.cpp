@@ -7,8 +7,6 @@
 #include <glm/gtx/component_wise.hpp>
 #include <tuple>
 
-#include "base/interrupt.h"
-
 namespace lumulus::vdb {
 namespace {
 
@@ -20,8 +18,8 @@ struct SliceLists {
 
 class Rasteriser {
   public:
-    Rasteriser(const SparseField& field, const IndexBox& crop, std::int64_t n)
-        : field_(field), crop_(crop), n_(n), size_(coarseSize(crop.extent(), n)), lists_(listSlices()) {}
+    Rasteriser(const SparseField& field, const IndexBox& crop, std::int64_t n, const Check& check)
+        : field_(field), crop_(crop), n_(n), check_(check), size_(coarseSize(crop.extent(), n)), lists_(listSlices()) {}
 
     Volume rasterise() const {
         Volume volume;
@@ -29,7 +27,7 @@ class Rasteriser {
         volume.density.assign(volume.index(0, 0, volume.size.z), 0.0F);
         std::vector<float> maxima(static_cast<std::size_t>(size_.z), 0.0F);
         tbb::parallel_for(0, size_.z, [&](int slice) {
-            stopIfInterrupted();
+            check_();
             maxima[static_cast<std::size_t>(slice)] = n_ == 1 ? copySlice(volume, slice) : averageSlice(volume, slice);
         });
         volume.maximum = *std::max_element(maxima.begin(), maxima.end());
@@ -149,6 +147,7 @@ class Rasteriser {
     const SparseField& field_;
     IndexBox crop_;
     std::int64_t n_;
+    const Check& check_;
     glm::ivec3 size_;
     SliceLists lists_;
 };
@@ -174,8 +173,8 @@ std::int64_t chooseCoarsening(const glm::i64vec3& extent, double budget, int max
     return high;
 }
 
-Volume rasteriseField(const SparseField& field, const IndexBox& crop, std::int64_t n) {
-    return Rasteriser(field, crop, n).rasterise();
+Volume rasteriseField(const SparseField& field, const IndexBox& crop, std::int64_t n, const Check& check) {
+    return Rasteriser(field, crop, n, check).rasterise();
 }
 
 }  // namespace lumulus::vdb

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "base/interrupt.h"
 #include "vdb/volume.h"
 
 /// A sparse density field as plain values, between the OpenVDB tree and the dense volume (inside vdb/ only).
@@ -65,7 +66,7 @@ glm::ivec3 coarseSize(const glm::i64vec3& extent, std::int64_t n);
 
 /// The field over `crop` as averages over boxes of n³ voxels that start at its minimum (n = 1: the values themselves),
 /// with a ring of zeros. Fills size, density and maximum. Values outside of `crop` count as zero.
-/// Errors: Error if interrupted.
-Volume rasteriseField(const SparseField& field, const IndexBox& crop, std::int64_t n);
+/// Errors: what `check` throws.
+Volume rasteriseField(const SparseField& field, const IndexBox& crop, std::int64_t n, const Check& check);
 
 }  // namespace lumulus::vdb

@@ -8,8 +8,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "base/interrupt.h"
-
 namespace lumulus::vdb {
 namespace {
 
@@ -119,12 +117,12 @@ double volumeOf(const IndexBox& box) {
 
 }  // namespace
 
-Survey surveyField(const SparseField& field) {
+Survey surveyField(const SparseField& field, const Check& check) {
     std::vector<BlockContent> contents(field.blocks.size());
     Survey survey = tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, field.blocks.size(), 64), Survey{},
         [&](const tbb::blocked_range<std::size_t>& range, Survey part) {
-            stopIfInterrupted();
+            check();
             for (std::size_t i = range.begin(); i != range.end(); ++i) surveyBlock(part, contents[i], field.blocks[i]);
             return part;
         },

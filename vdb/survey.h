@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/interrupt.h"
 #include "vdb/sparse_field.h"
 
 /// What the values of a sparse field are, before they become a volume (inside vdb/ only).
@@ -34,8 +35,8 @@ struct Survey {
 };
 
 /// Visits every value once. Values that are not finite or negative count as 0 for mass and occupied box.
-/// Errors: Error if interrupted.
-Survey surveyField(const SparseField& field);
+/// Errors: what `check` throws.
+Survey surveyField(const SparseField& field, const Check& check);
 
 /// Makes negative, infinite and undefined values 0.
 void clampValues(SparseField& field);

@@ -170,13 +170,13 @@ void RenderService::shutDown() {
     constexpr double shareOfWork = 0.8;  // of the time; the rest is for replies to leave
     std::unique_lock lock(mutex_);
     closing_ = true;
-    std::vector<SceneLoader::LoadJob> loads = desk_.close();
+    std::vector<LoadJob> loads = desk_.close();
     std::vector<Job> failed = scheduler_.endStreams();
     wake_.notify_all();
     const auto limit = std::chrono::duration<double>(shareOfWork * config_.limits.shutdownSeconds);
     idle_.wait_for(lock, limit,
                    [this] { return !scheduler_.hasQueued() && !rendering_ && encoding_.empty() && !desk_.busy(); });
-    if (auto current = desk_.takeCurrent()) loads.push_back(std::move(*current));
+    for (LoadJob& current : desk_.takeCurrent()) loads.push_back(std::move(current));
     for (const std::vector<Job>& left : {scheduler_.takeQueued(), scheduler_.takeCurrent()})
         std::ranges::copy_if(left, std::back_inserter(failed), [](const Job& job) { return !job.stream; });
     const auto fails = [this](ClientId client, std::uint64_t id) {

@@ -24,7 +24,7 @@
 namespace lumulus::service {
 
 /// Draws frames for many clients on a thread of its own, which owns the renderers and traces photons while nobody asks;
-/// another thread loads scenes. Every request gets one answer, a stream many. Pictures are handed over as values, to be
+/// others load scenes. Every request gets one answer, a stream many. Pictures are handed over as values, to be
 /// encoded elsewhere.
 class RenderService {
   public:

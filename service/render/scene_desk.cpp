@@ -13,10 +13,18 @@ SceneDesk::SceneDesk(const RenderConfig& config, Instruments& instruments, Host 
       host_(std::move(host)),
       defaultPending_(!config.defaultScene.empty()),
       loader_(config, instruments, loaderHost()) {
-    if (defaultPending_)
-        default_ = std::make_unique<DefaultScene>(config, instruments, defaultHost());
-    else
+    if (defaultPending_) {
+        const std::lock_guard lock(host_.mutex);
+        loadDefault();
+    } else {
         host_.begun(nullptr);
+    }
+}
+
+/// With the lock held, so that the load cannot end before the loader knows of it.
+void SceneDesk::loadDefault() {
+    default_ = std::make_unique<DefaultScene>(config_, instruments_, defaultHost());
+    loader_.holdBack(default_->key());
 }
 
 void SceneDesk::stop() {
@@ -30,10 +38,10 @@ void SceneDesk::loadDefaultAgain() {
     defaultPending_ = true;
     for (const ClientId client : host_.scenes.withoutScene()) host_.scheduler.setWaiting(client, true);
     ended_.push_back(std::move(default_));
-    default_ = std::make_unique<DefaultScene>(config_, instruments_, defaultHost());
+    loadDefault();
 }
 
-void SceneDesk::submit(SceneLoader::LoadJob job) {
+void SceneDesk::submit(LoadJob job) {
     const ClientId client = job.client;
     loader_.submit(std::move(job));
     host_.scheduler.setWaiting(client, true);
@@ -48,13 +56,13 @@ void SceneDesk::letWait(ClientId client, bool loads) {
     host_.scheduler.setWaiting(client, loads || (defaultPending_ && !host_.scenes.shownTo(client)));
 }
 
-std::vector<SceneLoader::LoadJob> SceneDesk::close() {
+std::vector<LoadJob> SceneDesk::close() {
     if (std::exchange(defaultPending_, false)) {
         default_->abandon();
         defaultEnded_.notify_all();
         for (const ClientId client : host_.scenes.withoutScene()) host_.scheduler.setWaiting(client, false);
     }
-    std::vector<SceneLoader::LoadJob> waiting = loader_.close();
+    std::vector<LoadJob> waiting = loader_.close();
     for (const auto& job : waiting) host_.scheduler.setWaiting(job.client, false);
     return waiting;
 }
@@ -73,8 +81,8 @@ SceneLoader::Host SceneDesk::loaderHost() {
     SceneLoader::Host host;
     host.find = [this](const std::string& key) { return find(key); };
     host.keep = [this](const SlotPointer& slot) { keep(slot); };
-    host.loaded = [this](const SceneLoader::LoadJob& job, const SlotPointer& slot) { loaded(job, slot); };
-    host.failed = [this](const SceneLoader::LoadJob& job, const Failure& failure) { loadFailed(job, failure); };
+    host.loaded = [this](const LoadJob& job, const SlotPointer& slot) { loaded(job, slot); };
+    host.failed = [this](const LoadJob& job, const Failure& failure) { loadFailed(job, failure); };
     return host;
 }
 
@@ -104,6 +112,7 @@ void SceneDesk::defaultLoaded(const SlotPointer& slot) {
     {
         const std::lock_guard lock(host_.mutex);
         if (!std::exchange(defaultPending_, false)) return;
+        loader_.holdBack({});
         host_.scenes.setDefault(slot);
         for (const ClientId client : host_.scenes.withoutScene()) {
             host_.scenes.show(client, slot);
@@ -121,6 +130,7 @@ void SceneDesk::defaultFailed(const std::exception_ptr& error) {
     {
         const std::lock_guard lock(host_.mutex);
         defaultPending_ = false;
+        loader_.holdBack({});
         for (const ClientId client : host_.scenes.withoutScene()) letWait(client, loader_.worksFor(client));
     }
     defaultEnded_.notify_all();
@@ -134,7 +144,7 @@ SceneDescription SceneDesk::describe(const SlotPointer& slot) const {
     return description;
 }
 
-void SceneDesk::loaded(const SceneLoader::LoadJob& job, const SlotPointer& slot) {
+void SceneDesk::loaded(const LoadJob& job, const SlotPointer& slot) {
     {
         const std::lock_guard lock(host_.mutex);
         const bool known = host_.scenes.knows(job.client);
@@ -149,7 +159,7 @@ void SceneDesk::loaded(const SceneLoader::LoadJob& job, const SlotPointer& slot)
     host_.ended();
 }
 
-void SceneDesk::loadFailed(const SceneLoader::LoadJob& job, const Failure& failure) {
+void SceneDesk::loadFailed(const LoadJob& job, const Failure& failure) {
     bool answered = false;
     {
         const std::lock_guard lock(host_.mutex);

@@ -45,7 +45,7 @@ class SceneDesk {
     // With the lock held:
 
     /// Errors: RequestError `busy` where the client waits for too many scenes.
-    void submit(SceneLoader::LoadJob job);
+    void submit(LoadJob job);
     /// Lets the client wait for the default scene, where that is loaded still.
     void addClient(ClientId client);
     void removeClient(ClientId client) { loader_.removeClient(client); }
@@ -56,9 +56,9 @@ class SceneDesk {
     /// How far the client's load is that is under way, or else the one that waits.
     std::optional<LoadState> state(ClientId client) const { return loader_.state(client); }
     /// Gives up the loads under way, refuses those to come, and returns those that waited. Nobody waits any more.
-    std::vector<SceneLoader::LoadJob> close();
-    /// Takes the load under way, which will not be answered any more.
-    std::optional<SceneLoader::LoadJob> takeCurrent() { return loader_.takeCurrent(); }
+    std::vector<LoadJob> close();
+    /// Takes the loads under way, which will not be answered any more.
+    std::vector<LoadJob> takeCurrent() { return loader_.takeCurrent(); }
 
     /// Ends the threads. Without the lock.
     void stop();
@@ -68,10 +68,11 @@ class SceneDesk {
     SlotPointer find(const std::string& key);
     DefaultScene::Host defaultHost();
     void keep(const SlotPointer& slot);
+    void loadDefault();
     void defaultLoaded(const SlotPointer& slot);
     void defaultFailed(const std::exception_ptr& error);
-    void loaded(const SceneLoader::LoadJob& job, const SlotPointer& slot);
-    void loadFailed(const SceneLoader::LoadJob& job, const Failure& failure);
+    void loaded(const LoadJob& job, const SlotPointer& slot);
+    void loadFailed(const LoadJob& job, const Failure& failure);
     void letWait(ClientId client, bool loads);
     SceneDescription describe(const SlotPointer& slot) const;
 

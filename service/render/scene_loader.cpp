@@ -1,7 +1,6 @@
 #include "service/render/scene_loader.h"
 
 #include <algorithm>
-#include <iterator>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -14,12 +13,16 @@ namespace lumulus::service {
 
 namespace {
 
-constexpr std::ptrdiff_t mostWaiting = 4;  // of one client
+constexpr std::size_t mostWaiting = 4;  // of one client
+
+const Failure givenUp{"shutting_down", "the service is shutting down", {}};  // or its client is gone
 
 }  // namespace
 
 SceneLoader::SceneLoader(const RenderConfig& config, Instruments& instruments, Host host)
-    : config_(config), instruments_(instruments), host_(std::move(host)), thread_([this] { loop(); }) {}
+    : config_(config), instruments_(instruments), host_(std::move(host)) {
+    for (Lane& lane : lanes_) lane.thread = std::thread([this, &lane] { loop(lane); });
+}
 
 SceneLoader::~SceneLoader() {
     stop();
@@ -29,102 +32,149 @@ void SceneLoader::stop() {
     {
         const std::lock_guard lock(mutex_);
         stopping_ = closed_ = true;
+        for (Lane& lane : lanes_) lane.abandon = true;
     }
-    abandon_ = true;
     wake_.notify_all();
-    if (thread_.joinable()) thread_.join();
+    for (Lane& lane : lanes_)
+        if (lane.thread.joinable()) lane.thread.join();
 }
 
 void SceneLoader::submit(LoadJob job) {
     {
         const std::lock_guard lock(mutex_);
-        if (std::ranges::count(queue_, job.client, &LoadJob::client) >= mostWaiting)
+        if (queue_.count(job.client) >= mostWaiting)
             throw RequestError("busy", "four scenes wait to be loaded already");
-        queue_.push_back(std::move(job));
+        queue_.push(std::move(job), Clock::now());
     }
     wake_.notify_all();
 }
 
 void SceneLoader::removeClient(ClientId client) {
     const std::lock_guard lock(mutex_);
-    std::erase_if(queue_, [&](const LoadJob& job) { return job.client == client; });
-    if (loading_ && loading_->client == client) abandon_ = true;
-}
-
-bool SceneLoader::waits(ClientId client) const {
-    return std::ranges::count(queue_, client, &LoadJob::client) > 0;
+    queue_.removeClient(client);
+    for (Lane& lane : lanes_)
+        if (lane.job && lane.job->client == client) lane.abandon = true;
 }
 
 std::optional<bool> SceneLoader::end(const LoadJob& job) {
     const std::lock_guard lock(mutex_);
-    if (!loading_) return std::nullopt;
-    loading_.reset();
-    return waits(job.client);
+    for (Lane& lane : lanes_) {
+        if (!lane.job || lane.job->client != job.client || lane.job->id != job.id) continue;
+        lane.job.reset();
+        wake_.notify_all();
+        return queue_.count(job.client) > 0;
+    }
+    return std::nullopt;
+}
+
+void SceneLoader::holdBack(std::string key) {
+    {
+        const std::lock_guard lock(mutex_);
+        held_ = std::move(key);
+    }
+    wake_.notify_all();
+}
+
+const SceneLoader::Lane* SceneLoader::laneOf(ClientId client) const {
+    const auto lane =
+        std::ranges::find_if(lanes_, [&](const Lane& one) { return one.job && one.job->client == client; });
+    return lane == lanes_.end() ? nullptr : &*lane;
 }
 
 bool SceneLoader::worksFor(ClientId client) const {
     const std::lock_guard lock(mutex_);
-    return waits(client) || (loading_ && loading_->client == client);
+    return queue_.count(client) > 0 || laneOf(client) != nullptr;
 }
 
 bool SceneLoader::busy() const {
     const std::lock_guard lock(mutex_);
-    return loading_.has_value();
+    return std::ranges::any_of(lanes_, [](const Lane& lane) { return lane.job.has_value(); });
 }
 
 std::optional<LoadState> SceneLoader::state(ClientId client) const {
     const std::lock_guard lock(mutex_);
-    if (loading_ && loading_->client == client)
-        return LoadState{step_, std::chrono::duration<double>(Clock::now() - began_).count()};
-    return waits(client) ? std::optional(LoadState{"waiting", 0.0}) : std::nullopt;
+    if (const Lane* lane = laneOf(client))
+        return LoadState{lane->step, std::chrono::duration<double>(Clock::now() - lane->began).count()};
+    return queue_.count(client) > 0 ? std::optional(LoadState{"waiting", 0.0}) : std::nullopt;
 }
 
-void SceneLoader::noteStep(std::string_view step) {
+void SceneLoader::noteStep(Lane& lane, std::string_view step) {
     const std::lock_guard lock(mutex_);
-    step_ = step;
+    lane.step = step;
 }
 
-std::vector<SceneLoader::LoadJob> SceneLoader::close() {
+std::vector<LoadJob> SceneLoader::close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
-    abandon_ = true;
-    const std::deque<LoadJob> waiting = std::exchange(queue_, {});
-    return {waiting.begin(), waiting.end()};
+    for (Lane& lane : lanes_) lane.abandon = true;
+    return queue_.takeAll();
 }
 
-std::optional<SceneLoader::LoadJob> SceneLoader::takeCurrent() {
+std::vector<LoadJob> SceneLoader::takeCurrent() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(loading_, std::nullopt);
+    std::vector<LoadJob> jobs;
+    for (Lane& lane : lanes_)
+        if (auto job = std::exchange(lane.job, std::nullopt)) jobs.push_back(std::move(*job));
+    return jobs;
 }
 
-void SceneLoader::loop() {
+/// Takes the next entry for a lane, where there is one. With the lock held.
+std::optional<LoadQueue::Entry> SceneLoader::begin(Lane& lane) {
+    std::vector<LoadQueue::Running> running;
+    for (const Lane& one : lanes_)
+        if (one.job) running.push_back({one.job->client, one.key, one.large});
+    const auto now = Clock::now();
+    std::optional<LoadQueue::Entry> entry = queue_.take(running, held_, now);
+    if (!entry) return entry;
+    lane.job = entry->job;
+    lane.key = entry->source ? entry->source->key : std::string();
+    lane.large = entry->large();
+    lane.step = "reading the scene";
+    lane.began = now;
+    lane.abandon = false;
+    return entry;
+}
+
+void SceneLoader::loop(Lane& lane) {
     while (true) {
-        LoadJob job;
+        std::optional<LoadQueue::Entry> entry;
         {
             std::unique_lock lock(mutex_);
-            wake_.wait(lock, [this] { return stopping_ || (!closed_ && !queue_.empty()); });
-            if (stopping_) return;
-            job = std::move(queue_.front());
-            queue_.pop_front();
-            loading_ = job;
-            step_ = "reading the scene";
-            began_ = Clock::now();
-            abandon_ = false;
+            wake_.wait(lock, [&] { return stopping_ || (!closed_ && (entry = begin(lane))); });
+            if (!entry) return;
         }
-        load(job);
+        if (entry->source)
+            load(lane, *entry);
+        else
+            findSource(lane, std::move(*entry));
     }
 }
 
-SlotPointer SceneLoader::slotFor(const LoadJob& job) {
+/// Looks what a load is of, and lets it wait until a loader is free.
+void SceneLoader::findSource(Lane& lane, LoadQueue::Entry entry) {
+    const LoadJob job = entry.job;
+    answer(job, [&] {
+        entry.source = std::make_shared<const SourcedScene>(sourceScene(job.load, config_, job.client));
+        entry.cost = loadCost(entry.source->scene);
+        const std::lock_guard lock(mutex_);
+        if (lane.abandon || closed_) throw Cancelled{};
+        lane.job.reset();
+        queue_.putBack(std::move(entry));
+        wake_.notify_all();
+    });
+}
+
+SlotPointer SceneLoader::slotFor(Lane& lane, const LoadQueue::Entry& entry) {
     const auto start = Clock::now();
-    const SourcedScene found = sourceScene(job.load, config_, job.client);
+    const SourcedScene& found = *entry.source;
+    const LoadJob& job = entry.job;
     if (SlotPointer held = host_.find(found.key)) return held;
     instruments_.log.event("info", "scene_loading", {{"client", job.client}, {"scene", found.scene.source}});
-    const auto abandoned = [this] {
-        if (abandon_) throw Cancelled{};
+    const auto abandoned = [&lane] {
+        if (lane.abandon) throw Cancelled{};
     };
     auto slot = std::make_shared<SceneSlot>(found.key, found.scene, config_, abandoned,
-                                            [this](std::string_view step) { noteStep(step); });
+                                            [&](std::string_view step) { noteStep(lane, step); });
     if (job.load.isPrivate) slot->giveTo(job.client);
     host_.keep(slot);
     instruments_.metrics.add(Metrics::scenesLoaded);
@@ -135,13 +185,19 @@ SlotPointer SceneLoader::slotFor(const LoadJob& job) {
     return slot;
 }
 
-void SceneLoader::load(const LoadJob& job) {
+void SceneLoader::load(Lane& lane, const LoadQueue::Entry& entry) {
+    answer(entry.job, [&] { host_.loaded(entry.job, slotFor(lane, entry)); });
+}
+
+/// Does work for a job, and answers the job where that fails.
+template <typename Work>
+void SceneLoader::answer(const LoadJob& job, const Work& work) {
     try {
-        host_.loaded(job, slotFor(job));
+        work();
     } catch (const RequestError& e) {
         host_.failed(job, {e.code, e.what(), e.where});
     } catch (const Cancelled&) {
-        host_.failed(job, {"shutting_down", "the service is shutting down", {}});  // or its client is gone
+        host_.failed(job, givenUp);
     } catch (const TooSlow& e) {
         host_.failed(job, {"too_large", e.what(), {}});
     } catch (const InputError& e) {

@@ -1,29 +1,24 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <condition_variable>
-#include <deque>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
 
+#include "service/render/load_queue.h"
 #include "service/render/scene_store.h"
 #include "service/telemetry/instruments.h"
 
 namespace lumulus::service {
 
-/// Loads scenes that clients ask for, one after the other, on a thread of its own.
+/// Loads scenes that clients ask for on two threads of its own, in the order of LoadQueue.
 class SceneLoader {
   public:
-    struct LoadJob {
-        ClientId client = 0;
-        std::uint64_t id = 0;
-        LoadScene load;
-        std::shared_ptr<MemoryBudget::Share> memory = {};  ///< that the request holds
-    };
-    /// What the loader calls, on its thread and without its lock.
+    /// What the loader calls, on its threads and without its lock.
     struct Host {
         /// A scene that is held already; null where it is not.
         std::function<SlotPointer(const std::string& key)> find;
@@ -44,41 +39,54 @@ class SceneLoader {
     void submit(LoadJob job);
     /// Forgets what the client waits for; a load under way for it is given up.
     void removeClient(ClientId client);
-    /// Ends the load under way. Returns whether the client waits for another; none where somebody has answered it.
+    /// Ends a load under way. Returns whether the client waits for another; none where somebody has answered it.
     std::optional<bool> end(const LoadJob& job);
+    /// The scene of this key is being loaded elsewhere: nobody loads it here. Empty: there is none.
+    void holdBack(std::string key);
     bool busy() const;
     /// How far the client's load is that is under way, or else the one that waits.
     std::optional<LoadState> state(ClientId client) const;
     /// Whether a load of the client waits or is under way.
     bool worksFor(ClientId client) const;
-    /// Gives up the load under way, refuses those to come, and returns those that waited.
+    /// Gives up the loads under way, refuses those to come, and returns those that waited.
     std::vector<LoadJob> close();
-    /// Takes the load under way, which its thread will not answer any more.
-    std::optional<LoadJob> takeCurrent();
-    /// Ends the thread.
+    /// Takes the loads under way, which their threads will not answer any more.
+    std::vector<LoadJob> takeCurrent();
+    /// Ends the threads.
     void stop();
 
   private:
-    void loop();
-    void load(const LoadJob& job);
-    SlotPointer slotFor(const LoadJob& job);
-    void noteStep(std::string_view step);
-    bool waits(ClientId client) const;
+    /// A thread, and the load that is under way on it.
+    struct Lane {
+        std::optional<LoadJob> job;  // its client waits for it
+        std::string key;             // as LoadQueue::Running
+        bool large = false;
+        std::string step;  // of the load, since `began`
+        Clock::time_point began;
+        std::atomic<bool> abandon{false};  // ends the load
+        std::thread thread;
+    };
+
+    void loop(Lane& lane);
+    std::optional<LoadQueue::Entry> begin(Lane& lane);
+    void findSource(Lane& lane, LoadQueue::Entry entry);
+    void load(Lane& lane, const LoadQueue::Entry& entry);
+    template <typename Work>
+    void answer(const LoadJob& job, const Work& work);
+    SlotPointer slotFor(Lane& lane, const LoadQueue::Entry& entry);
+    void noteStep(Lane& lane, std::string_view step);
+    const Lane* laneOf(ClientId client) const;
 
     const RenderConfig& config_;
     Instruments& instruments_;
     Host host_;
 
-    mutable std::mutex mutex_;  // guards what follows
+    mutable std::mutex mutex_;  // guards what follows, but for threads and `abandon`
     std::condition_variable wake_;
-    std::deque<LoadJob> queue_;
-    std::optional<LoadJob> loading_;  // its client waits for it
-    std::string step_;                // of the load under way, since `began_`
-    Clock::time_point began_;
+    LoadQueue queue_;
+    std::string held_;
     bool closed_ = false, stopping_ = false;
-    std::atomic<bool> abandon_{false};  // ends the load under way
-
-    std::thread thread_;
+    std::array<Lane, 2> lanes_;
 };
 
 }  // namespace lumulus::service

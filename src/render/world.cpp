@@ -96,7 +96,7 @@ class Maker {
 };
 
 CloudVolumes Maker::load() {
-    CloudVolumes volumes = loadClouds(scene_, options_.report);
+    CloudVolumes volumes = loadClouds(scene_, options_.report, options_.check);
     report_.warnings = std::move(volumes.warnings);
     report_.clouds = summarise(scene_, volumes);
     if (options_.loaded) options_.loaded(report_.clouds, report_.warnings);

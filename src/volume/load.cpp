@@ -39,13 +39,15 @@ double sizeOf(const vdb::Volume& volume) {
     return 2.0 * static_cast<double>(volume.density.size()) / bytesPerMiB;
 }
 
-vdb::LoadResult load(const scene::Cloud& cloud, std::size_t index, double memoryBudget, const Report& report) {
+vdb::LoadResult load(const scene::Cloud& cloud, std::size_t index, double memoryBudget, const Report& report,
+                     const vdb::ReadLimits& limits) {
     if (!cloud.vdb.empty()) {
         report("loading the cloud", 0, 1);
         vdb::LoadResult loaded = vdb::load(cloud.vdb, {.grid = cloud.grid,
                                                        .memoryBudgetMiB = memoryBudget,
                                                        .clamp = cloud.clamp,
-                                                       .keys = "cloud." + std::to_string(index)});
+                                                       .keys = "cloud." + std::to_string(index),
+                                                       .limits = limits});
         report("loading the cloud", 1, 1);
         return loaded;
     }
@@ -70,11 +72,11 @@ double evenShare(std::vector<double> wanted, double budget) {
 }
 
 /// Loads all sources. Only so much is held at a time as the budget and one more field take.
-void loadAll(std::vector<Source>& sources, double budget, const Report& report) {
+void loadAll(std::vector<Source>& sources, double budget, const Report& report, const vdb::ReadLimits& limits) {
     double held = 0.0, total = 0.0, left = budget;
     std::vector<double> wanted;
     for (Source& source : sources) {
-        source.loaded = load(*source.cloud, source.index, budget, report);
+        source.loaded = load(*source.cloud, source.index, budget, report, limits);
         const double size = sizeOf(source.loaded.volume);
         total += source.loaded.wantedMiB;
         if (source.isFile()) {
@@ -92,7 +94,7 @@ void loadAll(std::vector<Source>& sources, double budget, const Report& report) 
         const bool dropped = source.loaded.volume.density.empty();
         if (!source.isFile() || (!dropped && sizeOf(source.loaded.volume) <= share)) continue;
         source.loaded.volume.density = {};
-        source.loaded = load(*source.cloud, source.index, share, report);
+        source.loaded = load(*source.cloud, source.index, share, report, limits);
     }
 }
 
@@ -116,17 +118,20 @@ std::vector<vdb::PlacedVolume> CloudVolumes::placed() const {
     return result;
 }
 
-CloudVolumes loadClouds(const scene::Scene& scene, const Report& report) {
+CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const Check& check) {
+    constexpr double treesPerBudget = 2.0, treesAlways = 4096.0;
+    const double budget = scene.preparation.memoryBudget;
+    const vdb::ReadLimits limits{check, std::max(treesAlways, treesPerBudget * budget)};
     std::vector<std::size_t> volumeOf;
     std::vector<Source> sources = differentSources(scene.clouds, volumeOf);
-    loadAll(sources, scene.preparation.memoryBudget, report);
+    loadAll(sources, budget, report, limits);
     CloudVolumes result;
     for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
         const std::string where = "cloud." + std::to_string(i) + ".transform";
         result.clouds.push_back({volumeOf[i], sources[volumeOf[i]].placeUnder(scene.clouds[i].transform, where), {}});
     }
     std::vector<vdb::ColumnSums> sums;
-    for (const Source& source : sources) sums.push_back(vdb::columnSums(source.loaded.volume));
+    for (const Source& source : sources) sums.push_back(vdb::columnSums(source.loaded.volume, check));
     for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
         CloudVolumes::Cloud& cloud = result.clouds[i];
         const double extinction = scene.clouds[i].extinction * scene.clouds[i].densityScale;

@@ -7,6 +7,7 @@ lumulus_test(vdb_load_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_load_test.cpp L
 lumulus_test(vdb_choice_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_choice_test.cpp LINK lumulus_vdb OpenVDB::openvdb)
 lumulus_test(vdb_values_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_values_test.cpp
                                      ${CMAKE_CURRENT_LIST_DIR}/vdb_place_test.cpp LINK lumulus_vdb OpenVDB::openvdb)
+lumulus_test(vdb_reading_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_reading_test.cpp LINK lumulus_vdb OpenVDB::openvdb)
 lumulus_test(vdb_nano_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_nano_test.cpp LINK lumulus_vdb OpenVDB::openvdb
                                                                                     Blosc::blosc TBB::tbb ZLIB::ZLIB)
 lumulus_test(vdb_refusal_test

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/GridDescriptor.h>
+#include <openvdb/io/io.h>
+#include <openvdb/openvdb.h>
+
+#include <istream>
+#include <vector>
+
+#include "vdb/metered_file.h"
+
+/// Reading single grids of an OpenVDB file (inside vdb/ only: the header costs seconds).
+namespace lumulus::vdb {
+
+/// The grids of an OpenVDB file. A file that tells where its grids lie (OpenVDB's io::File writes such) gives them one
+/// by one, and the others are skipped; a file that was written as a stream gives all of them at once. openvdb::io::File
+/// does as much, but cannot be stopped and takes truncated files for whole ones.
+class GridArchive : private openvdb::io::Archive {
+  public:
+    /// `limits` must outlive this.
+    GridArchive(const std::filesystem::path& path, const ReadLimits& limits);
+
+    /// Reads names, types and transforms. To be called first. Errors: those of OpenVDB and of the limits, and
+    /// std::ios::failure.
+    void readHeads();
+    /// All grids; trees are there of those that were read.
+    const openvdb::GridPtrVec& grids() const { return grids_; }
+    /// Reads the tree of a grid, where it was not read yet. Errors: as above.
+    void read(std::size_t index);
+    /// Whether the file ended too early.
+    bool ended() const { return in_.eof(); }
+    /// Throws again what ended the reading, where that was not the file.
+    void rethrow() const { file_.rethrow(); }
+
+  private:
+    void readHead(std::size_t index);
+    void readTree(std::size_t index);
+
+    MeteredFile file_;
+    openvdb::SharedPtr<openvdb::io::StreamMetadata> metadata_;  // the stream points to it
+    std::istream in_;
+    std::vector<openvdb::io::GridDescriptor> descriptors_;
+    openvdb::GridPtrVec grids_;
+    std::vector<bool> isRead_;
+};
+
+}  // namespace lumulus::vdb
