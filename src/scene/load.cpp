@@ -110,6 +110,9 @@ bool hasCloudSuffix(const std::filesystem::path& path) {
 
 /// Whether a file holds grids, or should by its name.
 bool isCloudFile(const std::filesystem::path& path) {
+    std::error_code ec;
+    // a pipe by that name is refused as one; read as a scene, it might be waited for
+    if (hasCloudSuffix(path) && std::filesystem::is_fifo(path, ec)) return true;
     const std::string start = fileStart(path);
     return isOpenVdb(start) || isNanoVdb(start) || (!start.empty() && hasCloudSuffix(path));
 }

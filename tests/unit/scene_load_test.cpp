@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <string>
 #include <vector>
@@ -34,6 +35,13 @@ std::string messageOf(const std::string& toml, const Overrides& overrides = {}) 
 
 void expectNear(const glm::dvec3& a, const glm::dvec3& b) {
     EXPECT_LT(glm::length(a - b), 1e-12);
+}
+
+TEST(SceneFile, APipeByTheNameOfACloudIsNotWaitedFor) {
+    const TemporaryFolder folder;
+    const std::filesystem::path pipe = folder / "cloud.vdb";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_EQ(loadScene(pipe, Overrides{}, std::nullopt).clouds.at(0).vdb, pipe);
 }
 
 TEST(SceneFile, EmptyIsTheProceduralCumulus) {
