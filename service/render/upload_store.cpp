@@ -45,6 +45,7 @@ struct UploadStore::Transfer {
     }
 
     void append(std::span<const std::byte> bytes) {
+        if (bytes.empty()) return;
         if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) failStorage();
         hash.update(bytes);
         received += bytes.size();
