@@ -168,11 +168,6 @@ bool isScalarType(nanovdb::GridType type) {
     return false;
 }
 
-/// A grid without voxels, for types that are no densities.
-openvdb::GridBase::Ptr placeholder() {
-    return openvdb::BoolGrid::create();
-}
-
 openvdb::GridBase::Ptr toGrid(Bytes& file, const Entry& entry, Codec codec) {
     openvdb::GridBase::Ptr grid;
     if (isScalarType(entry.data.gridType)) {
@@ -183,7 +178,7 @@ openvdb::GridBase::Ptr toGrid(Bytes& file, const Entry& entry, Codec codec) {
         grid->setTransform(transformOf(head.mMap));
     } else {
         file.skip(entry.data.fileSize);
-        grid = placeholder();
+        grid = openvdb::BoolGrid::create();  // no density: only its name and type are told
     }
     const bool known = entry.data.gridType < nanovdb::GridType::End;
     grid->setName(entry.name);

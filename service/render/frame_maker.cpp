@@ -45,6 +45,13 @@ void FrameMaker::applyChanges() {
         changes = host_.changes.takeAll();
         costs = host_.encoding.takeCosts();
     }
+    apply(changes);
+    for (const EncodingDesk::Cost& cost : costs)
+        if (const SlotPointer slot = cost.slot.lock())
+            slot->noteEncoded(cost.encoding, cost.report.milliseconds, cost.report.pixels);
+}
+
+void FrameMaker::apply(const std::vector<PendingChanges::Change>& changes) {
     for (const auto& [client, slot, light, cloud, toOwn] : changes) {
         try {
             const SlotPointer changed = host_.lights.toChange(client, slot, light, cloud);
@@ -56,9 +63,10 @@ void FrameMaker::applyChanges() {
             host_.lights.noteFailure(client, {e.code, e.what(), e.where});
         }
     }
-    for (const EncodingDesk::Cost& cost : costs)
-        if (const SlotPointer slot = cost.slot.lock())
-            slot->noteEncoded(cost.encoding, cost.report.milliseconds, cost.report.pixels);
+}
+
+bool FrameMaker::isBusy(const SlotPointer& slot) const {
+    return std::ranges::find(busy_, slot.get()) != busy_.end();
 }
 
 /// Errors: those of the scene.
@@ -156,9 +164,10 @@ void FrameMaker::makeFrame(Job job, const FrameRequest& frame, SlotPointer slot)
         const std::lock_guard lock(host_.mutex);
         hurry = host_.closing;
     }
-    const bool between = !busy_.empty();  // the steps of other work, which is to go on soon: no photons then
+    // between the steps of other work, which is to go on soon
+    const bool mayTrace = busy_.empty() || slot->tracesQuickly();
     if (!hurry && slot->needsGeneration(job, frame)) {
-        if (!between) trace(slot, true);
+        if (mayTrace) trace(slot, true);
         bool kept = false;
         {
             const std::lock_guard lock(host_.mutex);
@@ -169,7 +178,7 @@ void FrameMaker::makeFrame(Job job, const FrameRequest& frame, SlotPointer slot)
     }
     // a stream without a budget refines as it goes
     const bool refines = job.stream && !frame.budget.milliseconds && !frame.budget.photons && slot->wantsGeneration();
-    if (refines && !hurry && !between) trace(slot, true);
+    if (refines && !hurry && mayTrace) trace(slot, true);
     auto memory = memory_.take(MemoryBudget::frames, slot->frameBytes(frame));
     if (!memory && job.stream) return leaveOut(job);
     if (!memory) throw RequestError("busy", noMemory);
@@ -182,15 +191,25 @@ void FrameMaker::makeFrame(Job job, const FrameRequest& frame, SlotPointer slot)
 void FrameMaker::interject(const SceneSlot& slot) {
     constexpr std::size_t deepest = 4;
     if (busy_.empty() || busy_.back() != &slot || busy_.size() >= deepest) return;
+    const auto seesOther = [this](ClientId client) {
+        const SlotPointer shown = host_.scenes.shownTo(client);
+        return shown && !isBusy(shown);
+    };
+    std::vector<PendingChanges::Change> changes;
+    {
+        const std::lock_guard lock(host_.mutex);
+        if (host_.closing || host_.encoding.full()) return;
+        changes = host_.changes.takeWhere([&](const PendingChanges::Change& change) {
+            const SlotPointer shown = host_.scenes.shownTo(change.client);
+            return !isBusy(change.slot) && !(shown && isBusy(shown));
+        });
+    }
+    apply(changes);
     std::optional<Job> job;
     {
         const std::lock_guard lock(host_.mutex);
-        if (host_.closing || host_.encoding.full() || host_.changes.any()) return;
         const auto revision = [this](ClientId client) { return host_.scenes.revision(client); };
-        job = host_.scheduler.takeBeside(Clock::now(), revision, [&](ClientId client) {
-            const SlotPointer shown = host_.scenes.shownTo(client);
-            return shown && std::ranges::find(busy_, shown.get()) == busy_.end();
-        });
+        job = host_.scheduler.takeBeside(Clock::now(), revision, seesOther);
     }
     if (job) make(std::move(*job));
 }

@@ -47,10 +47,12 @@ class FrameMaker {
     void make(Job job);
     /// Traces a generation of photons, or completes a part of the sun's shadow volume.
     void refine(const SlotPointer& slot, bool generation);
-    /// Between the steps of work on `slot`: makes a picture of another scene that is due.
+    /// Between the steps of work on `slot`: changes the light of other scenes, and makes a picture of one that is due.
     void interject(const SceneSlot& slot);
 
   private:
+    void apply(const std::vector<PendingChanges::Change>& changes);
+    bool isBusy(const SlotPointer& slot) const;
     void makeFrame(Job job, const FrameRequest& frame, SlotPointer slot);
     void trace(const SlotPointer& slot, bool generation);
     void leaveOut(const Job& job);

@@ -36,7 +36,7 @@ SlotPointer LightDesk::make(ClientId client, const SlotPointer& slot) {
         // until it is there and counted with the scene's: no more than the scene has itself
         const auto room = instruments_.memory.take(MemoryBudget::scenes, slot->heldBytes());
         if (room) return std::make_shared<SceneSlot>(slot, client);
-    } catch (const Error& e) {
+    } catch (const std::exception& e) {
         instruments_.log.event("warning", "light_failed", {{"client", client}, {"message", e.what()}});
     }
     const std::lock_guard lock(host_.mutex);

@@ -43,7 +43,7 @@ bool LightState::apply(const LightChange& change, std::optional<std::size_t> clo
             changed = renderer_.setSun(change.sunDirection.value_or(now.directionTo),
                                        change.sunIrradiance.value_or(now.irradiance));
         }
-        if (change.extinction) changed = renderer_.setExtinction(*change.extinction, cloud) || changed;
+        if (change.extinction && renderer_.setExtinction(*change.extinction, cloud)) changed = otherExtinction_ = true;
     } catch (const InputError& e) {
         throw RequestError("bad_request", e.what());
     }
@@ -54,6 +54,7 @@ bool LightState::apply(const LightChange& change, std::optional<std::size_t> clo
 bool LightState::revert() {
     if (!before_) return false;
     const Light before = *std::exchange(before_, std::nullopt);
+    otherExtinction_ = false;
     if (before.sun.irradiance != renderer_.sun().irradiance || before.sun.directionTo != renderer_.sun().directionTo)
         renderer_.setSun(before.sun.directionTo, before.sun.irradiance);
     for (std::size_t i = 0; i < before.extinctions.size(); ++i)

@@ -27,7 +27,12 @@ class LightState {
     /// the scene cannot have such a light.
     bool apply(const LightChange& change, std::optional<std::size_t> cloud);
     /// The light of now has been traced: it is the one that revert() brings back from now on.
-    void prove() { before_.reset(); }
+    void prove() {
+        before_.reset();
+        otherExtinction_ = false;
+    }
+    /// Whether an extinction has changed since: nobody knows what tracing the light of now takes.
+    bool costUnknown() const { return otherExtinction_; }
     /// Brings back the light that was proved last. Returns false where that is the light of now.
     bool revert();
 
@@ -41,6 +46,7 @@ class LightState {
     const scene::Scene& scene_;
     Renderer& renderer_;
     std::optional<Light> before_;
+    bool otherExtinction_ = false;
 };
 
 }  // namespace lumulus::service

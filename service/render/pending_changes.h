@@ -24,6 +24,14 @@ class PendingChanges {
     bool any() const { return !changes_.empty(); }
     /// All of them, in the order in which they came; they are forgotten.
     std::vector<Change> takeAll() { return std::exchange(changes_, {}); }
+    /// Those for which `wanted` returns true; the others stay.
+    template <class Condition>
+    std::vector<Change> takeWhere(const Condition& wanted) {
+        std::vector<Change> taken, left;
+        for (Change& change : changes_) (wanted(change) ? taken : left).push_back(std::move(change));
+        changes_ = std::move(left);
+        return taken;
+    }
     /// The light of a scene when its changes are made.
     SceneLight after(SceneLight light, const SlotPointer& slot) const;
 

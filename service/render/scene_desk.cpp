@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/error.h"
 #include "service/values/request_error.h"
 
 namespace lumulus::service {
@@ -34,11 +35,18 @@ void SceneDesk::stop() {
 }
 
 void SceneDesk::loadDefaultAgain() {
-    if (defaultPending_ || !default_) return;
+    constexpr auto shortest = std::chrono::minutes(1);
+    if (defaultPending_ || !default_ || Clock::now() - defaultLoaded_ < shortest) return;
+    ended_.clear();  // these threads ended minutes ago
+    ended_.push_back(std::move(default_));
+    try {
+        loadDefault();
+    } catch (const InputError& e) {  // its file is gone meanwhile
+        instruments_.log.event("error", "scene_refused", {{"message", e.what()}});
+        return;
+    }
     defaultPending_ = true;
     for (const ClientId client : host_.scenes.withoutScene()) host_.scheduler.setWaiting(client, true);
-    ended_.push_back(std::move(default_));
-    loadDefault();
 }
 
 void SceneDesk::submit(LoadJob job) {
@@ -112,6 +120,7 @@ void SceneDesk::defaultLoaded(const SlotPointer& slot) {
     {
         const std::lock_guard lock(host_.mutex);
         if (!std::exchange(defaultPending_, false)) return;
+        defaultLoaded_ = Clock::now();
         loader_.holdBack({});
         host_.scenes.setDefault(slot);
         for (const ClientId client : host_.scenes.withoutScene()) {

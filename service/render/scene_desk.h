@@ -50,7 +50,8 @@ class SceneDesk {
     void addClient(ClientId client);
     void removeClient(ClientId client) { loader_.removeClient(client); }
     bool defaultPending() const { return defaultPending_; }
-    /// Loads the default scene once more, which is held no longer: clients without a scene wait for it.
+    /// Loads the default scene once more, which is held no longer: clients without a scene wait for it. A scene that
+    /// did not last stays gone: loading it again would not end.
     void loadDefaultAgain();
     bool busy() const { return loader_.busy(); }
     /// How far the client's load is that is under way, or else the one that waits.
@@ -79,6 +80,7 @@ class SceneDesk {
     const RenderConfig& config_;
     Instruments& instruments_;
     Host host_;
+    Clock::time_point defaultLoaded_;                   // last time
     bool begun_ = false;                                // the host knows how the first load of the default scene ended
     std::vector<std::unique_ptr<DefaultScene>> ended_;  // loads of the default scene; their threads are done
     bool defaultPending_;

@@ -159,6 +159,11 @@ bool SceneSlot::wantsGeneration() const {
     return renderer_->generations().current < renderer_->generationsWanted();
 }
 
+bool SceneSlot::tracesQuickly() const {
+    constexpr double longest = 150.0;  // ms
+    return costs_.traceMs() > 0.0 && costs_.traceMs() <= longest && !light_->costUnknown();
+}
+
 void SceneSlot::traceGeneration() {
     const auto start = Clock::now();
     const auto pausedBefore = paused_;

@@ -74,6 +74,8 @@ class SceneSlot {
     /// Errors: TooSlow.
     void traceGeneration();
     double traceMs() const { return costs_.traceMs(); }
+    /// Whether a generation is known to be short enough to trace it between the steps of other work.
+    bool tracesQuickly() const;
     /// Whether pictures show the sun by a shadow volume of reduced resolution.
     bool wantsSun() const { return renderer_->sunReduction() > 1; }
     /// Makes a part of the shadow volume's full resolution.

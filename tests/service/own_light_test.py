@@ -136,6 +136,35 @@ class HeavyWork(unittest.TestCase):
         with self.server.client() as client:
             self.assertEqual(picture(client), before, "the default scene is there")
 
+    def test_light_of_others_changes_meanwhile(self):
+        """Neither a change of light nor the photons of another client's light wait for the end of heavy work."""
+        outcome = []
+
+        def attack():
+            with self.server.client() as client:
+                try:
+                    outcome.append(picture(client, extinction=HEAVY))
+                except ServiceError as error:
+                    outcome.append(error.code)
+
+        with self.server.client() as client:
+            picture(client, **EVENING)
+            attacker = threading.Thread(target=attack)
+            attacker.start()
+            self.server.event("light_made")
+            self.server.event("light_made")
+            hashes, longest = set(), 0.0
+            while not outcome:
+                start = time.monotonic()
+                client.change(sun={"azimuth": 10 * len(hashes), "elevation": 40})
+                hashes.add(picture(client))
+                if not outcome:
+                    longest = max(longest, time.monotonic() - start)
+            attacker.join()
+        self.assertEqual(outcome, ["too_large"])
+        self.assertGreater(len(hashes), 3, "each change is seen before the heavy work ends")
+        print(f"longest wait for the picture of a changed light: {1e3 * longest:.0f} ms")
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <deque>
+#include <glm/gtx/component_wise.hpp>
 #include <numeric>
 #include <optional>
 
@@ -41,15 +42,11 @@ int exponentAbove(double value) {
     return static_cast<int>(std::ceil(std::log2(value)));
 }
 
-double maxChannel(const glm::dvec3& v) {
-    return std::max(v.x, std::max(v.y, v.z));
-}
-
 /// Through the cloud's box, wherever the sun stands: so the ring's unit does not depend on it, and pictures under a sun
 /// that came there have the bits of those where it always was.
 double greatestFlux(const scene::Sun& sun, const Emission& emission, const glm::dmat3& faceArea) {
     const double area = glm::length(faceArea[0]) + glm::length(faceArea[1]) + glm::length(faceArea[2]);
-    return maxChannel(sun.irradiance * area + emission.skyFlux);
+    return glm::compMax(sun.irradiance * area + emission.skyFlux);
 }
 
 /// A texel for each collector.
@@ -133,8 +130,8 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Asset& preparedCl
 
 /// The unit of a generation's records, and with the first that has light, that of the sum.
 int PhotonMap::State::unitExponentFor(const Emission& emission, const scene::Sun& sun) {
-    const double most = std::max(maxChannel(emission.sunPower(options.photonsPerGeneration)),
-                                 maxChannel(emission.skyPower(options.photonsPerGeneration)));
+    const double most = std::max(glm::compMax(emission.sunPower(options.photonsPerGeneration)),
+                                 glm::compMax(emission.skyPower(options.photonsPerGeneration)));
     if (!sums.hasUnit()) sums.setUnit(exponentAbove(greatestFlux(sun, emission, tracer.faceArea())) - unitBits);
     const int unitExponent = exponentAbove(most / static_cast<double>(shared::POWER_UNITS));
     const int finer = -sums.shiftOf(unitExponent);
