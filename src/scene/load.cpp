@@ -108,13 +108,12 @@ bool hasCloudSuffix(const std::filesystem::path& path) {
     return suffix == ".vdb" || suffix == ".nvdb";
 }
 
-/// Whether a file holds grids, or should by its name.
+/// Whether a file holds grids, or should by its name: what has such a name and no grids (an empty file, a pipe) is
+/// refused by the loader, and not read as a scene.
 bool isCloudFile(const std::filesystem::path& path) {
-    std::error_code ec;
-    // a pipe by that name is refused as one; read as a scene, it might be waited for
-    if (hasCloudSuffix(path) && std::filesystem::is_fifo(path, ec)) return true;
+    if (hasCloudSuffix(path)) return true;
     const std::string start = fileStart(path);
-    return isOpenVdb(start) || isNanoVdb(start) || (!start.empty() && hasCloudSuffix(path));
+    return isOpenVdb(start) || isNanoVdb(start);
 }
 
 /// The text of a scene that shows a file of clouds beside it.

@@ -77,6 +77,8 @@ class Input(CliTest):
 
     def test_a_cloud_in_place_of_the_scene(self):
         self.rejected("render", self.folder / "missing.vdb", "-o", self.out / "b.exr", says="missing.vdb")
+        (self.folder / "empty.vdb").write_bytes(b"")
+        self.rejected("render", self.folder / "empty.vdb", "-o", self.out / "b.exr", says="empty.vdb")
         ball = self.fixtures / "ball.vdb"
         by_scene, _, _ = self.picture(self.scene(f'[[cloud]]\nvdb = "{ball}"\n'))
         by_file, attributes, _ = self.picture(ball)

@@ -296,8 +296,10 @@ TEST(SceneFile, AFileOfCloudsStandsForASceneOfIt) {
         EXPECT_EQ(scene.image.width, 1280);
         EXPECT_EQ(scene.source, (folder / name).string());
     }
-    test::writeAll(folder / "packed.VDB", "\x1f\x8b");  // the loader says what it is
-    EXPECT_EQ(loadScene(folder / "packed.VDB").clouds[0].vdb, folder / "packed.VDB");
+    for (const char* content : {"\x1f\x8b", ""}) {  // the loader says what is wrong
+        test::writeAll(folder / "wrong.VDB", content);
+        EXPECT_EQ(loadScene(folder / "wrong.VDB").clouds[0].vdb, folder / "wrong.VDB");
+    }
 }
 
 TEST(SceneFile, OtherKindsOfFilesAreNamed) {
