@@ -241,7 +241,8 @@ export class Viewing {
     reset() {
         const {scene, vdb, file, own} = this.wishes;
         this.wishes = Object.assign(freshWishes(), {scene, vdb, file, own});
-        const other = this.held && (this.held.g.size > 0 || this.held.fog !== null || this.held.quality !== null);
+        const changed = this.held && (this.held.g.size > 0 || this.held.fog !== null || this.held.quality !== null);
+        const other = this.isLoading || changed; // a load under way may show another scene any moment
         const {sun, clouds} = this.scene.original;
         // clouds without extinction have none to go back to
         const changes = [{sun}, ...clouds.map(({extinction}, cloud) => ({cloud, extinction})).filter((one) => one.extinction > 0)];
