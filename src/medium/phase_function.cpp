@@ -98,6 +98,9 @@ PhaseFunction::PhaseFunction(const scene::Phase& phase) : model_(phase.model) {
         case scene::PhaseModel::hazy:
         case scene::PhaseModel::murky:
             break;
+        case scene::PhaseModel::mie:
+        case scene::PhaseModel::table:
+            break;
     }
 }
 
@@ -123,6 +126,9 @@ double PhaseFunction::evaluate(double oneMinusCos, double onePlusCos) const {
         case scene::PhaseModel::droplet:
             return (1.0 - fit_.weight) * henyeyGreenstein(fit_.gHg, c) +
                    fit_.weight * draine(fit_.gDraine, fit_.alpha, c);
+        case scene::PhaseModel::mie:
+        case scene::PhaseModel::table:
+            break;
     }
     assert(false);
     return 0.0;
@@ -143,6 +149,9 @@ std::vector<double> PhaseFunction::moments(int count) const {
             return mix(isotropic(), powerLobeMoments(32, count), 0.5);
         case scene::PhaseModel::droplet:
             return mix(hgMoments(fit_.gHg, count), draineMoments(fit_.gDraine, fit_.alpha, count), fit_.weight);
+        case scene::PhaseModel::mie:
+        case scene::PhaseModel::table:
+            break;
     }
     assert(false);
     return {};

@@ -104,6 +104,9 @@ double PhaseFunction::evaluate(double oneMinusCos) const {
             return lobe(murkyPower, oneMinusCos);
         case scene::PhaseModel::droplet:
             break;
+        case scene::PhaseModel::mie:
+        case scene::PhaseModel::table:
+            break;
     }
     return (1.0 - draineShare_) * henyeyGreenstein(g_, oneMinusCos) +
            draineShare_ * draine(draineG_, draineAlpha_, oneMinusCos);
@@ -122,6 +125,9 @@ double PhaseFunction::sample(Random& random) const {
         case scene::PhaseModel::murky:
             return sampleLobe(murkyPower, random);
         case scene::PhaseModel::droplet:
+            break;
+        case scene::PhaseModel::mie:
+        case scene::PhaseModel::table:
             break;
     }
     if (random.uniform() < draineShare_) return sampleDraine(draineG_, draineAlpha_, random);

@@ -1,18 +1,11 @@
 #include <array>
 
-#include "scene/schema.h"
+#include "scene/key_rows.h"
 
 namespace lumulus::scene {
 namespace {
 
-using Setter = void (*)(Draft&, const Value&);
-using Text = std::string_view;
-
-constexpr Range unit{0.0, 1.0};
-constexpr Range light{0.0, 1e9};
-constexpr Range coefficients{0.0, 1e6};
-constexpr double koschmieder = 3.912;            // −ln(0.02): optical depth at the visibility (Koschmieder 1924)
-constexpr Range seeds{0.0, 9007199254740992.0};  // 2^53: larger integers are not exact in every reader
+constexpr double koschmieder = 3.912;  // −ln(0.02): optical depth at the visibility (Koschmieder 1924)
 
 constexpr std::array projections{Projection::perspective, Projection::orthographic, Projection::panorama};
 constexpr std::array phaseModels{PhaseModel::henyeyGreenstein,
@@ -29,26 +22,6 @@ constexpr std::array fogFetches{FogFetch::bilinear, FogFetch::linearBicubic, Fog
 constexpr std::array fogDepths{FogDepth::distance, FogDepth::planar, FogDepth::zbuffer};
 constexpr std::array mediumKinds{MediumKind::homogeneous, MediumKind::exponential, MediumKind::sphere};
 constexpr std::array surfaceKinds{SurfaceKind::plane, SurfaceKind::sphere, SurfaceKind::disc};
-
-Key number(Text name, Range range, Text fallback, Text documentation, Setter set) {
-    return {name, Type::number, range, {}, fallback, documentation, set};
-}
-
-Key integer(Text name, Range range, Text fallback, Text documentation, Setter set) {
-    return {name, Type::integer, range, {}, fallback, documentation, set};
-}
-
-Key rgb(Text name, Range range, Text fallback, Text documentation, Setter set) {
-    return {name, Type::rgb, range, {}, fallback, documentation, set};
-}
-
-Key choice(Text name, std::vector<Text> choices, Text fallback, Text documentation, Setter set) {
-    return {name, Type::choice, {}, std::move(choices), fallback, documentation, set};
-}
-
-Key other(Text name, Type type, Text fallback, Text documentation, Setter set) {
-    return {name, type, {}, {}, fallback, documentation, set};
-}
 
 Cloud& cloudOf(Draft& d) {
     return d.scene.clouds.at(d.entry);
@@ -90,28 +63,6 @@ std::vector<Key> imageAndCameraKeys() {
         choice("camera.projection", {"perspective", "orthographic", "panorama"}, "\"perspective\"",
                "`panorama` shows the whole sphere as longitude by latitude, with the target in the middle.",
                [](Draft& d, const Value& v) { d.scene.camera.projection = projections.at(v.choice); }),
-    };
-}
-
-std::vector<Key> sunAndSkyKeys() {
-    return {
-        other("sun.direction_to", Type::vector, "(from azimuth and elevation)",
-              "Direction towards the sun, of any length, instead of azimuth and elevation.",
-              [](Draft& d, const Value& v) { d.directionTo = v.vector; }),
-        number("sun.azimuth", {-360.0, 360.0}, "70.0",
-               "Azimuth of the sun in degrees, clockwise seen from above: 0 is towards -Z, 90 towards +X.",
-               [](Draft& d, const Value& v) { d.azimuth = v.number; }),
-        number("sun.elevation", {-90.0, 90.0}, "35.0", "Elevation of the sun in degrees above the horizon.",
-               [](Draft& d, const Value& v) { d.elevation = v.number; }),
-        rgb("sun.irradiance", light, "[5.0, 4.8, 4.4]",
-            "Irradiance on a plane that faces the sun, W/m² per channel. 0 means no sun.",
-            [](Draft& d, const Value& v) { d.scene.sun.irradiance = v.vector; }),
-        number("sun.angular_diameter", {0.0, 90.0}, "0.53", "Angular diameter of the sun in degrees.",
-               [](Draft& d, const Value& v) { d.scene.sun.angularDiameter = v.number; }),
-        choice("sky.model", {"constant"}, "\"constant\"", "`constant` has the same radiance in all directions.",
-               [](Draft&, const Value&) {}),
-        rgb("sky.radiance", light, "[0.12, 0.22, 0.42]", "Radiance of the sky, W/(m² sr) per channel.",
-            [](Draft& d, const Value& v) { d.scene.sky.radiance = v.vector; }),
     };
 }
 

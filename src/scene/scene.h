@@ -8,17 +8,26 @@
 #include <string>
 #include <vector>
 
+#include "scene/field.h"
 #include "scene/fog.h"
+#include "scene/sky.h"
 #include "scene/surface.h"
 
 /// The scene as values: the keys of the file, with every default filled in and every value checked.
 /// Units: metres, degrees (angles of the file), W·m⁻² and W·m⁻²·sr⁻¹ per channel, 1/m.
 namespace lumulus::scene {
 
+/// What sets the exposure of PNG files and of encoded frames.
+enum class ExposureMode { stops, ev100, automatic };
+enum class ToneMap { filmic, agx, aces, neutral, linear };
+
 struct Image {
     int width = 1280;
     int height = 720;
-    double exposure = 0.0;   ///< photographic stops, applied before the tone map of PNG files only
+    double exposure = 0.0;  ///< photographic stops, applied before the tone map of PNG files only
+    ExposureMode exposureMode = ExposureMode::stops;
+    double ev100 = 15.0;  ///< exposure value at ISO 100, for `ev100`
+    ToneMap toneMap = ToneMap::filmic;
     bool background = true;  ///< whether R, G, B show the sky and the sun's disc, and A is 1 where they do
 
     bool operator==(const Image&) const = default;
@@ -36,35 +45,15 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
-/// The unit vector towards a point of the sky. Azimuth 0 looks along −Z and 90 along +X (north and east where −Z is
-/// north); elevation is the angle above the horizon. Degrees.
-inline glm::dvec3 skyDirection(double azimuth, double elevation) {
-    const double a = glm::radians(azimuth), e = glm::radians(elevation);
-    return {std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a)};
-}
-
-inline constexpr double defaultAzimuth = 70.0, defaultElevation = 35.0;  ///< of the sun, degrees
-
-struct Sun {
-    glm::dvec3 directionTo = skyDirection(defaultAzimuth, defaultElevation);  ///< unit vector towards the sun
-    glm::dvec3 irradiance{5.0, 4.8, 4.4};                                     ///< on a plane that faces the sun, RGB
-    double angularDiameter = 0.53;                                            ///< degrees
-
-    bool operator==(const Sun&) const = default;
-};
-
-struct Sky {
-    glm::dvec3 radiance{0.12, 0.22, 0.42};  ///< constant over the sphere, RGB
-
-    bool operator==(const Sky&) const = default;
-};
-
-enum class PhaseModel { henyeyGreenstein, schlick, rayleigh, hazy, murky, droplet };
+enum class PhaseModel { henyeyGreenstein, schlick, rayleigh, hazy, murky, droplet, mie, table };
 
 struct Phase {
     PhaseModel model = PhaseModel::henyeyGreenstein;
     double g = 0.85;
-    double dropletDiameter = 20.0;  ///< µm, 5 to 50, for `droplet`
+    double dropletDiameter = 20.0;   ///< µm, 5 to 50, for `droplet`
+    double effectiveRadius = 10.0;   ///< µm, 2 to 50, for `mie`
+    double effectiveVariance = 0.1;  ///< of the gamma distribution of radii, for `mie`
+    std::filesystem::path table;     ///< of angle and value, for `table`
 
     bool operator==(const Phase&) const = default;
 };
@@ -77,7 +66,8 @@ struct Cloud {
     std::string procedural = "cumulus";
     int resolution = 192;  ///< voxels along the longest side of a procedural cloud
     std::uint64_t seed = 1;
-    glm::dmat4 transform{1.0};  ///< applied after the grid's own transform
+    glm::dmat4 transform{1.0};        ///< applied after the grid's own transform
+    std::filesystem::path instances;  ///< CSV of places; empty: one instance, at `transform`
     double densityScale = 1.0;
     double extinction = 0.08;  ///< σt = extinction · density_scale · value [1/m]
     glm::dvec3 albedo{1.0};
@@ -86,12 +76,17 @@ struct Cloud {
     bool operator==(const Cloud&) const = default;
 };
 
+/// How a density field lies in memory: every voxel of its box, or bricks of 8³ voxels where there is density.
+enum class DensityStorage { automatic, dense, sparse };
+
 struct Preparation {
     int samples = 20000;
     double densityThreshold = 0.1;          ///< share of the maximum: a leaf with a smaller range is not split
     std::optional<double> influenceRadius;  ///< metres; absent: from the mean distance of samples
     int maxLeaves = 32768;
     double memoryBudget = 512.0;  ///< MiB for the density volumes of all clouds on the GPU
+    DensityStorage storage = DensityStorage::automatic;
+    bool levelOfDetail = true;  ///< whether clouds that are small in the picture have fewer collectors and photons
 
     bool operator==(const Preparation&) const = default;
 };
@@ -107,6 +102,7 @@ struct PhotonMap {
     Majorant majorant = Majorant::automatic;
     double memoryBudget = 1024.0;  ///< MiB on the GPU for the light of collectors
     std::uint64_t seed = 1;
+    bool separateLights = false;  ///< whether the light of sun and of sky are kept apart
 
     bool operator==(const PhotonMap&) const = default;
 };
@@ -124,8 +120,12 @@ struct Scene {
     Image image;
     Camera camera;
     Sun sun;
+    Moon moon;
     Sky sky;
+    std::optional<Time> time;      ///< absent: the sun stands where `sun` says
+    std::optional<Ground> ground;  ///< absent: nothing is below the clouds
     std::vector<Cloud> clouds;
+    std::vector<Field> fields;
     Preparation preparation;
     PhotonMap photonMap;
     Draw draw;
