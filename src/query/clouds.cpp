@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -87,6 +88,20 @@ std::uint64_t Clouds::bytes() const {
     return sum;
 }
 
+std::optional<Extent> Clouds::extent() const {
+    if (nodes_.empty()) return std::nullopt;
+    return Extent{nodes_.front().box.lower, nodes_.front().box.upper};
+}
+
+double Clouds::finestVoxel() const {
+    double finest = 0.0;
+    for (const Part& part : parts_) {
+        const double edge = std::cbrt(std::abs(glm::determinant(part.placed.voxelToMetres)));
+        if (finest == 0.0 || edge < finest) finest = edge;
+    }
+    return finest;
+}
+
 double Clouds::depthOf(const Part& part, const Way& way) const {
     const VoxelLine line{part.metresToVoxel * (way.origin - part.placed.origin), part.metresToVoxel * way.direction};
     return part.placed.extinction * part.placed.field->integral(line, 0.0, way.length);
@@ -96,7 +111,7 @@ double Clouds::opticalDepth(const Way& way) const {
     if (nodes_.empty() || !(way.length > 0.0)) return 0.0;
     const glm::dvec3 inverse = 1.0 / way.direction;
     double depth = 0.0;
-    std::array<std::size_t, 64> waiting{};  // halves of halves: far fewer levels than bits of a count
+    std::array<std::size_t, 64> waiting{};  // a tree of n parts has about log2 n levels
     std::size_t count = 1;
     while (count > 0) {
         const std::size_t number = waiting[--count];

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "query/bricks.h"
@@ -28,6 +29,11 @@ struct PlacedField {
     double extinction = 0.0;  ///< 1/m at density 1
 };
 
+/// A box along the axes of the world, metres.
+struct Extent {
+    glm::dvec3 lower{0.0}, upper{0.0};
+};
+
 /// Clouds through which light goes in straight lines. Where they overlap, their optical depths add up.
 class Clouds {
   public:
@@ -37,6 +43,10 @@ class Clouds {
     std::size_t size() const { return parts_.size(); }
     /// Memory of the different fields.
     std::uint64_t bytes() const;
+    /// The box of all of them; absent where there is none.
+    std::optional<Extent> extent() const;
+    /// Smallest edge of a cube of a voxel's volume [m]; 0 where there is no cloud.
+    double finestVoxel() const;
     /// Optical depth of all clouds along a way, without noise.
     double opticalDepth(const Way& way) const;
 
