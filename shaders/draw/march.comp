@@ -13,6 +13,7 @@ layout(constant_id = 1) const bool SUN = true;      // the sun shines
 layout(constant_id = 2) const bool PHOTONS = true;  // there is a photon map
 layout(constant_id = 4) const bool MANY = false;     // more than one instance
 layout(constant_id = 3) const bool GREY = false;     // the albedo is the same for all colours
+layout(constant_id = 5) const bool GROUND = false;   // rays end at the ground
 
 layout(binding = 0, scalar) readonly buffer Params { DrawParams storedParams; };
 layout(binding = 1, scalar) readonly buffer PhaseTable { float phaseTable[]; };
@@ -100,16 +101,26 @@ void marchThrough(InstanceParams instance, vec3 direction, Line line, vec2 insid
     }
 }
 
+/// Metres to the ground along a ray.
+float distanceToGround(vec3 origin, vec3 direction) {
+    const float above = params.eyeAboveGround + origin.y;
+    return direction.y < 0.0 ? max(above, 0.0) / -direction.y : 3.4e38;
+}
+
 /// The light of one ray: through the one instance, or through all of them, segment by segment.
 RayLight march(vec3 origin, vec3 direction, float offset) {
     RayLight ray = emptyRay();
     if (!MANY) {
         const Line line = lineIn(onlyInstance, origin, direction);
-        marchThrough(onlyInstance, direction, line, clipToVolume(line, onlyInstance.size), offset, ray);
+        vec2 inside = clipToVolume(line, onlyInstance.size);
+        if (GROUND) inside.y = min(inside.y, distanceToGround(origin, direction));
+        marchThrough(onlyInstance, direction, line, inside, offset, ray);
         return ray;
     }
+    const float limit = GROUND ? distanceToGround(origin, direction) : 3.4e38;
     float begin = 0.0, end = segmentEnd(origin, direction, begin);
-    while (end > begin && !isOpaque(ray)) {
+    while (end > begin && !isOpaque(ray) && (!GROUND || begin < limit)) {
+        if (GROUND) end = min(end, limit);
         for (int i = 0; i < params.instances; ++i) {
             const InstanceParams instance = instanceAt(i);
             const Line line = lineIn(instance, origin, direction);

@@ -18,6 +18,7 @@
 #include "cli/help.h"
 #include "cli/info.h"
 #include "cli/output.h"
+#include "cli/query.h"
 #include "cli/reference.h"
 #include "cli/render.h"
 #include "cli/serve.h"
@@ -101,6 +102,31 @@ void addInfo(CLI::App& app, InfoOptions& options, Action& action) {
     command->add_flag("--json", options.json, "As JSON");
     command->footer("Example:\n  lumulus info cloud.vdb\n  lumulus info --devices --json");
     command->callback([&options, &action] { action = [&options] { runInfo(options); }; });
+}
+
+void addQuery(CLI::App& app, QueryOptions& options, Action& action) {
+    CLI::App* command = app.add_subcommand("query", "Ask what a scene does to light, without a picture");
+    command->add_option("scene", options.scene, sceneHelp)->required();
+    command
+        ->add_option("--segments", options.segments, "Transmittance between points (.csv: x0,y0,z0,x1,y1,z1, metres)")
+        ->check(notEmpty());
+    command->add_option("--sun", options.sun, "Transmittance from points to the sun (.csv: x,y,z, metres)")
+        ->check(notEmpty());
+    command
+        ->add_option("--ground-shadow", options.rectangle,
+                     "Transmittance of the sun over a level rectangle: X0,Z0,X1,Z1, metres")
+        ->delimiter(',')
+        ->expected(4);
+    command->add_option("--size", options.size, "Pixels of the rectangle, WIDTHxHEIGHT")->capture_default_str();
+    command->add_option("--height", options.height, "Height of the rectangle, metres (default: the ground's)");
+    command->add_option("-o,--output", options.output, "Table, or picture (.exr) of a rectangle; default: stdout");
+    command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
+        ->allow_extra_args(false);
+    command->add_flag("--json", options.json, "As JSON");
+    command->add_flag("--quiet", options.quiet, "No progress");
+    command->footer(
+        "Example:\n  lumulus query configs/scenes/cumulus.toml --ground-shadow -2e3,-2e3,2e3,2e3 -o shadow.exr");
+    command->callback([&options, &action] { action = [&options] { runQuery(options); }; });
 }
 
 void addReference(CLI::App& app, ReferenceOptions& options, Action& action) {
@@ -289,6 +315,7 @@ void parseAndRun(int argc, const char* const* argv) {
     RenderOptions render;
     CloudOptions cloud;
     InfoOptions info;
+    QueryOptions query;
     ReferenceOptions reference;
     CompareOptions compare;
     CompositeOptions composite;
@@ -301,6 +328,7 @@ void parseAndRun(int argc, const char* const* argv) {
     addRender(app, render, action);
     addCloud(app, cloud, action);
     addInfo(app, info, action);
+    addQuery(app, query, action);
     addReference(app, reference, action);
     addCompare(app, compare, action);
     addComposite(app, composite, action);

@@ -15,8 +15,9 @@ struct DrawFeatures {
     bool forwardCut = false;  ///< the forward peak is cut
     bool sun = false;
     bool photons = false;
-    bool grey = false;  ///< the albedo of each cloud is the same for all colours
-    bool many = false;  ///< more than one instance
+    bool grey = false;    ///< the albedo of each cloud is the same for all colours
+    bool many = false;    ///< more than one instance
+    bool ground = false;  ///< rays of a march end at a ground
 
     std::vector<gpu::SpecConstant> constants() const {
         return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun), gpu::SpecConstant::of(2, photons),

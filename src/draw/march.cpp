@@ -8,10 +8,16 @@ namespace spirv {
 #include "spirv/draw/march.comp.h"
 }  // namespace spirv
 
+std::vector<gpu::SpecConstant> constantsOf(const DrawFeatures& features) {
+    std::vector<gpu::SpecConstant> constants = features.constants();
+    constants.push_back(gpu::SpecConstant::of(5, features.ground));
+    return constants;
+}
+
 }  // namespace
 
 March::March(gpu::Context& context, const DrawFeatures& features)
-    : program_(context, "march", spirv::march_comp, features.constants()) {}
+    : program_(context, "march", spirv::march_comp, constantsOf(features)) {}
 
 void March::record(gpu::Commands& commands, const DrawInputs& inputs, const shared::DrawPush& push) const {
     std::vector<gpu::Binding> bindings = inputs.bindings();

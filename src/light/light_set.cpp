@@ -7,6 +7,7 @@ namespace lumulus::light {
 scene::Sun LightSet::sunAt(const glm::dvec3& point, const scene::Fog& fog) const {
     scene::Sun reaching = sun;
     if (!fog.media.empty()) reaching.irradiance *= fog::sunTransmittance(fog, point, sun.directionTo);
+    if (ground && sun.directionTo.y <= 0.0) reaching.irradiance = glm::dvec3(0.0);
     reaching.irradiance *= environment.sunTransmittance(point, sun.directionTo);
     return reaching;
 }

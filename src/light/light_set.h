@@ -1,20 +1,22 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "scene/scene.h"
 #include "sky/environment.h"
 
 namespace lumulus::light {
 
-/// The lights of the world: sun and environment, as they are before fog and clouds.
+/// The lights of the world: sun, environment and ground, as they are before fog and clouds.
 struct LightSet {
     scene::Sun sun;
     sky::Environment environment;
+    std::optional<scene::Ground> ground;  ///< absent: nothing is below the clouds
 
     bool hasSun() const { return sun.irradiance.x > 0.0 || sun.irradiance.y > 0.0 || sun.irradiance.z > 0.0; }
     bool isDark() const { return !hasSun() && environment.isDark(); }
-    /// The sun as it reaches a point through the fog, if there is any, and the air.
+    /// The sun as it reaches a point through the fog, if there is any, and the air; from below a ground, not at all.
     scene::Sun sunAt(const glm::dvec3& point, const scene::Fog& fog) const;
 };
 

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "reference/fingerprint.h"
+#include "reference/ground.h"
 
 namespace lumulus::reference {
 namespace {
@@ -60,7 +61,7 @@ std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::Pl
     addCamera(print, camera);
     for (std::size_t i = 0; i < volumes.size(); ++i) addCloud(print, scene.clouds[i], volumes[i]);
     if (!scene.fog.media.empty()) addFog(print, scene.fog);
-    for (const scene::Surface& surface : scene.surfaces) addSurface(print, surface);
+    for (const scene::Surface& surface : surfacesOf(scene)) addSurface(print, surface);
     if (!scene.image.background) print.add(scene.image.background);
     return print.value();
 }

@@ -6,6 +6,8 @@
 #include <glm/gtx/component_wise.hpp>
 #include <limits>
 
+#include "reference/ground.h"
+
 namespace lumulus::reference {
 namespace {
 
@@ -36,7 +38,7 @@ PathTracer::PathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedV
     : environment_(scene.sky, scene.sun),
       clouds_(scene.clouds, volumes, majorant),
       fog_(scene.fog, eye),
-      surfaces_(scene.surfaces),
+      surfaces_(surfacesOf(scene)),
       lamps_(scene.surfaces),
       inscattering_(scene.fog.inscattering) {
     const PhaseFunction* phase = clouds_.narrowestPhase();

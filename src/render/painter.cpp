@@ -116,6 +116,8 @@ shared::DrawParams Painter::drawParams(const World& world, const ViewState::Stat
                                            static_cast<double>(static_cast<float>(finest)));
     values.instances = static_cast<int>(visible_.size());
     values.samples = view.raysAcross;
+    if (world.lights.ground)
+        values.eyeAboveGround = static_cast<float>(view.camera.position.y - world.lights.ground->height);
     values.tilesAcross = view.billboards ? view.billboards->tilesAcross() : 0;
     return values;
 }

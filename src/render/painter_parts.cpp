@@ -6,6 +6,7 @@ namespace lumulus {
 
 draw::DrawFeatures featuresOf(const World& world) {
     draw::DrawFeatures features;
+    features.ground = world.lights.ground.has_value();
     const std::vector<const cloud::Instance*> instances = instancesOf(world);
     features.forwardCut =
         std::ranges::any_of(instances, [](const auto* i) { return !i->medium.tables.singleScatterH.empty(); });

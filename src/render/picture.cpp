@@ -36,6 +36,36 @@ LayeredImage PictureOrder::throughFog(ViewState::State& state, const Tile& wante
     return image;
 }
 
+/// Adds what is behind the clouds: ground and sun.
+void PictureOrder::finish(LayeredImage& image, ViewState::State& state) {
+    std::vector<shared::SunPixel> sun = frame::sunPixels(state.camera, state.tile, world.lights.sun);
+    if (ground != nullptr) {
+        const auto seen = surface::seenGround(state.camera, state.tile, ground->light(work.context, world, check));
+        surface::hideSun(sun, seen, state.tile.width);
+        surface::addGround(image, seen, world.lights.environment.uniformRadiance());
+    }
+    frame::addSun(image, sun);
+}
+
+/// The same where there is fog. The tile is the whole picture, and the ground a layer of its own.
+LayeredImage PictureOrder::finishInFog(ViewState::State& state, const Tile& wanted) {
+    std::vector<shared::SunPixel> sun = frame::sunPixels(state.camera, state.tile, world.lights.sun);
+    if (ground == nullptr) {
+        if (!sun.empty()) work.run([&](gpu::Commands& commands) { state.frame->recordSun(commands, sun); });
+        return throughFog(state, wanted);
+    }
+    const glm::dvec3& sky = world.lights.environment.uniformRadiance();
+    LayeredImage image = throughFog(state, wanted);
+    const surface::GroundLight& light = ground->light(work.context, world, check);
+    const auto seen = surface::seenGround(state.camera, state.tile, light);
+    surface::hideSun(sun, seen, state.tile.width);
+    const std::vector<glm::vec4> behind = groundThroughFog(*fog, state.camera, seen, sky, sun);
+    frame::addTimes(work.times, fog->takeTimes());
+    surface::addGround(image, surface::seenGround(state.camera, wanted, light), sky);  // for its depth
+    layBehind(image, behind, wanted, state.tile.width);
+    return image;
+}
+
 LayeredImage PictureOrder::picture(ViewState::State& state, const View& view) {
     const Tile wanted = state.tile;
     if (fog != nullptr) state.tile = {0, 0, view.image.width, view.image.height};  // its filter sees beyond the tile
@@ -50,13 +80,10 @@ LayeredImage PictureOrder::picture(ViewState::State& state, const View& view) {
         painter->paint(work, world, state, draw::allBands(state.shown), fog == nullptr ? &image : nullptr, check,
                        report);
     }
-    const std::vector<shared::SunPixel> sun = frame::sunPixels(state.camera, state.tile, world.lights.sun);
-    if (fog != nullptr) {
-        if (!sun.empty()) work.run([&](gpu::Commands& commands) { state.frame->recordSun(commands, sun); });
-        image = throughFog(state, wanted);
-    } else {
-        frame::addSun(image, sun);
-    }
+    if (fog != nullptr)
+        image = finishInFog(state, wanted);
+    else
+        finish(image, state);
     if (!view.image.background) frame::leaveOutBackground(image);
     return image;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fog/screen/fog.h"
+#include "render/ground_view.h"
 #include "render/painter.h"
 #include "render/renderer.h"
 
@@ -12,6 +13,7 @@ struct PictureOrder {
     World& world;
     const Painter* painter;  ///< null: there is nothing to draw
     fog::Fog* fog;           ///< null: there is no fog
+    GroundView* ground;      ///< null: there is no ground
     int bands;               ///< of the photon map
     int shadowReduction;     ///< that shadow volumes may have
     const Check& check;
@@ -25,6 +27,8 @@ struct PictureOrder {
   private:
     void drawBackground(ViewState::State& state);
     LayeredImage throughFog(ViewState::State& state, const Tile& wanted);
+    void finish(LayeredImage& image, ViewState::State& state);
+    LayeredImage finishInFog(ViewState::State& state, const Tile& wanted);
     void drawLight(ViewState::State& state, photon::Part part);
 };
 

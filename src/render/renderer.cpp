@@ -85,6 +85,7 @@ Renderer::Renderer(const scene::Scene& scene, const Renderer& other, const Rende
 void Renderer::State::makePainters(const scene::Scene& scene) {
     statistics.device = context.device().name;
     if (!scene.fog.media.empty()) fog.emplace(context, scene.fog, check);
+    if (scene.ground) ground.emplace();
     for (const auto& asset : world->assets) statistics.collectors += asset->collectors.size();
     if (!world->visible().empty()) painter.emplace(context, *world, scene.draw);
 }
@@ -143,6 +144,7 @@ int Renderer::raysAcross(const View& view) const {
 void Renderer::State::show(ViewState::State& state, const View& view) const {
     state.previous = state.camera;
     state.camera = makeCamera(view, world->bounds);
+    if (ground) requireAbove(*world->lights.ground, state.camera);
     state.tile = drawnTile(view);
     state.raysAcross = raysAcross(state.camera, view.mostRays);
     state.spacing = painter ? painter->samplingSpacing(*world, state.camera) : 1;
@@ -171,6 +173,7 @@ LayeredImage Renderer::draw(const View& view, ViewState& viewState) {
                        *s.world,
                        s.painter ? &*s.painter : nullptr,
                        s.fog ? &*s.fog : nullptr,
+                       s.ground ? &*s.ground : nullptr,
                        s.photonMap.bands,
                        s.sunAllowed,
                        s.check,
@@ -188,7 +191,8 @@ Preview Renderer::preview() {
     State& s = *state_;
     ViewState viewState;
     s.show(viewState.state(), sceneView());
-    PictureOrder order{s.work, *s.world, &*s.painter, nullptr, s.photonMap.bands, s.sunAllowed, s.check, noReport};
+    PictureOrder order{s.work,       *s.world, &*s.painter, nullptr, nullptr, s.photonMap.bands,
+                       s.sunAllowed, s.check,  noReport};
     Preview preview = order.preview(viewState.state());
     if (!s.image.background)
         for (LayeredImage* image : {&preview.even, &preview.odd}) frame::leaveOutBackground(*image);

@@ -6,6 +6,7 @@
 
 #include "fog/screen/fog.h"
 #include "render/gpu_work.h"
+#include "render/ground_view.h"
 #include "render/painter.h"
 #include "render/renderer.h"
 #include "render/world.h"
@@ -35,6 +36,7 @@ struct Renderer::State {
     std::optional<World> world;
     std::optional<Painter> painter;
     std::optional<fog::Fog> fog;
+    std::optional<GroundView> ground;
     int sunAllowed = 1;   ///< reduction of shadow volumes
     int sinceChange = 0;  ///< generations under the light of now
     bool keepRing;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "cloud/instance.h"
 #include "light/instance_light.h"
 #include "light/light_set.h"
+#include "query/bricks.h"
 #include "scene/scene.h"
 #include "volume/summary.h"
 
@@ -25,6 +27,8 @@ struct World {
     std::vector<light::InstanceLight> light;  ///< of each instance
     Bounds bounds;                            ///< of all instances, without their offsets
     glm::dvec3 wind{0.0};                     ///< velocity with which all instances drift [m/s]
+    /// Densities on the host, of the assets that a question has needed them of.
+    std::map<const cloud::Asset*, std::shared_ptr<const query::BrickField>> fields{};
 
     /// Numbers of the instances in which there is something.
     std::vector<std::size_t> visible() const;

@@ -6,3 +6,4 @@ lumulus_test(reference_render_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_r
 lumulus_test(reference_fog_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_fog_test.cpp LINK lumulus_reference)
 lumulus_test(reference_surface_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_surface_test.cpp LINK lumulus_reference)
 lumulus_test(reference_clouds_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_clouds_test.cpp LINK lumulus_reference)
+lumulus_test(reference_ground_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_ground_test.cpp LINK lumulus_reference)

@@ -129,7 +129,7 @@ TEST(SharedLayout, Draw) {
                   cellOrigin, lightSize, shadowSize);
     EXPECT_LAYOUT(billboards_comp, SamplingGrid, first, size, spacing, tolerance, depthTolerance);
     EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, environment, atlas, sampling, instances, tilesAcross,
-                  samples);
+                  samples, eyeAboveGround);
     EXPECT_PUSH(billboards_comp, DrawPush, what, first, count);
     EXPECT_PUSH(interpolate_comp, InterpolatePush, first, count, firstBlock, blocks);
     EXPECT_LAYOUT(billboards_comp, Pixel, cloud, transmittance, alpha, depth, front, radiance, unused);

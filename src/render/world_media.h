@@ -1,0 +1,13 @@
+#pragma once
+
+#include "base/interrupt.h"
+#include "query/media.h"
+#include "render/world.h"
+
+namespace lumulus {
+
+/// What light meets in a world as it is now, on the host. The densities of assets are read back from the GPU where no
+/// question has needed them yet, and stay with the world. Errors: what `check` throws.
+query::Media mediaOf(gpu::Context& context, World& world, const Check& check);
+
+}  // namespace lumulus

@@ -1,0 +1,167 @@
+#include "surface/ground_light.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace lumulus::surface {
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr double mostSunNodes = 65536.0;
+constexpr int skyNodes = 48;      // along each side
+constexpr int skyRays = 64;       // of a node
+constexpr double skyReach = 2.0;  // around the clouds, in their heights above the ground
+/// A sun lower than this throws shadows that end farther away than anybody looks.
+constexpr double lowestSine = 0.01;
+
+struct Extent {
+    glm::dvec2 lower, upper;
+
+    void add(const glm::dvec2& place) {
+        lower = glm::min(lower, place);
+        upper = glm::max(upper, place);
+    }
+};
+
+/// Where the shadows of clouds may lie.
+Extent shadowExtent(const query::Extent& clouds, double height, const glm::dvec3& directionTo) {
+    Extent extent{glm::dvec2(clouds.lower.x, clouds.lower.z), glm::dvec2(clouds.lower.x, clouds.lower.z)};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 at =
+            glm::mix(clouds.lower, clouds.upper, glm::dvec3(corner & 1, (corner >> 1) & 1, corner >> 2));
+        const double fall = std::max(0.0, at.y - height) / std::max(directionTo.y, lowestSine);
+        extent.add({at.x - fall * directionTo.x, at.z - fall * directionTo.z});
+    }
+    return extent;
+}
+
+GroundGrid gridOver(const Extent& extent, double finest, double most) {
+    GroundGrid grid;
+    const glm::dvec2 size = glm::max(extent.upper - extent.lower, glm::dvec2(finest));
+    const double spacing = std::max(finest, std::sqrt(size.x * size.y / most));
+    grid.nodes = glm::ivec2(glm::ceil(glm::min(size / spacing, glm::dvec2(most)))) + 1;
+    grid.lower = extent.lower;
+    grid.upper = extent.lower + size;
+    grid.values.resize(static_cast<std::size_t>(grid.nodes.x) * static_cast<std::size_t>(grid.nodes.y));
+    return grid;
+}
+
+template <typename ValueAt>
+void fill(GroundGrid& grid, const ValueAt& valueAt, const Check& check) {
+    tbb::parallel_for(0, grid.nodes.y, [&](int z) {
+        check();
+        for (int x = 0; x < grid.nodes.x; ++x)
+            grid.values[static_cast<std::size_t>(z) * static_cast<std::size_t>(grid.nodes.x) +
+                        static_cast<std::size_t>(x)] = glm::vec3(valueAt(x, z));
+    });
+}
+
+/// A number in [0,1) that differs from node to node.
+double scattered(int x, int z, int number) {
+    auto h = static_cast<std::uint32_t>(x) * 0x9E3779B1U ^ static_cast<std::uint32_t>(z) * 0x85EBCA77U ^
+             static_cast<std::uint32_t>(number) * 0xC2B2AE3DU;
+    h = (h ^ (h >> 15U)) * 0x2C1B3C6DU;
+    h = (h ^ (h >> 12U)) * 0x297A2D39U;
+    return static_cast<double>(h ^ (h >> 15U)) / 4294967296.0;
+}
+
+/// Share of the light of a sky of one radiance that arrives at a place: points of a Fibonacci spiral over the
+/// hemisphere, as dense as the cosine, shifted from node to node.
+glm::dvec3 skyShare(const query::Media& media, const glm::dvec3& point, int x, int z) {
+    const double first = scattered(x, z, 1), second = scattered(x, z, 2);
+    glm::dvec3 sum(0.0);
+    for (int i = 0; i < skyRays; ++i) {
+        const double u = std::fmod((i + first) / skyRays, 1.0);
+        const double azimuth = 2.0 * pi * std::fmod(i * 0.6180339887498949 + second, 1.0);
+        const double sine = std::sqrt(u);
+        sum += media.along({point, {sine * std::cos(azimuth), std::sqrt(1.0 - u), sine * std::sin(azimuth)}})
+                   .transmittance();
+    }
+    return sum / static_cast<double>(skyRays);
+}
+
+/// Binomial weights over 3 × 3 nodes.
+void smooth(GroundGrid& grid) {
+    const std::vector<glm::vec3> from = grid.values;
+    const auto get = [&](int x, int z) {
+        const glm::ivec2 n = glm::clamp(glm::ivec2(x, z), glm::ivec2(0), grid.nodes - 1);
+        return from[static_cast<std::size_t>(n.y) * static_cast<std::size_t>(grid.nodes.x) +
+                    static_cast<std::size_t>(n.x)];
+    };
+    std::size_t i = 0;
+    for (int z = 0; z < grid.nodes.y; ++z)
+        for (int x = 0; x < grid.nodes.x; ++x, ++i) {
+            glm::vec3 sum(0.0F);
+            for (int a = -1; a <= 1; ++a)
+                for (int b = -1; b <= 1; ++b)
+                    sum += get(x + a, z + b) * ((a == 0 ? 0.5F : 0.25F) * (b == 0 ? 0.5F : 0.25F));
+            grid.values[i] = sum;
+        }
+}
+
+}  // namespace
+
+glm::dvec2 GroundGrid::node(int x, int z) const {
+    return lower + (upper - lower) * glm::dvec2(x, z) / glm::dvec2(nodes - 1);
+}
+
+glm::dvec3 GroundGrid::at(const glm::dvec2& place) const {
+    if (nodes.x == 0) return outside;
+    const glm::dvec2 scaled = (place - lower) / (upper - lower) * glm::dvec2(nodes - 1);
+    // from the outermost nodes on the value goes over into that of outside
+    if (!(scaled.x > -1.0 && scaled.y > -1.0 && scaled.x < nodes.x && scaled.y < nodes.y)) return outside;
+    const glm::ivec2 first(glm::floor(scaled));
+    const glm::dvec2 f = scaled - glm::dvec2(first);
+    const auto get = [&](int x, int z) -> glm::dvec3 {
+        if (x < 0 || z < 0 || x >= nodes.x || z >= nodes.y) return outside;
+        return values[static_cast<std::size_t>(z) * static_cast<std::size_t>(nodes.x) + static_cast<std::size_t>(x)];
+    };
+    return glm::mix(glm::mix(get(first.x, first.y), get(first.x + 1, first.y), f.x),
+                    glm::mix(get(first.x, first.y + 1), get(first.x + 1, first.y + 1), f.x), f.y);
+}
+
+GroundLight::GroundLight(const scene::Ground& ground, const query::Media& media, const scene::Sun& sun,
+                         const glm::dvec3& sky, const Check& check)
+    : ground_(ground), openSun_(sun.irradiance * std::max(0.0, sun.directionTo.y)), openSky_(pi * sky) {
+    const double height = ground.height;
+    const auto pointAt = [height](const glm::dvec2& place) { return glm::dvec3(place.x, height, place.y); };
+    query::Media fogAlone{{}, media.fog, {}};
+    if (sun.directionTo.y > 0.0)
+        sun_.outside = glm::vec3(fogAlone.along({pointAt({0.0, 0.0}), sun.directionTo}).transmittance());
+    if (!media.fog.media.empty()) sky_.outside = glm::vec3(skyShare(fogAlone, pointAt({0.0, 0.0}), 0, 0));
+    const std::optional<query::Extent> clouds = media.clouds.extent();
+    if (!clouds || clouds->upper.y <= height) return;
+    const double finest = media.clouds.finestVoxel();
+    if (openSun_ != glm::dvec3(0.0)) {
+        sun_ = {gridOver(shadowExtent(*clouds, height, sun.directionTo), finest, mostSunNodes)};
+        fill(
+            sun_,
+            [&](int x, int z) {
+                return media.along({pointAt(sun_.node(x, z)), sun.directionTo}).transmittance();
+            },
+            check);
+    }
+    if (openSky_ == glm::dvec3(0.0)) return;
+    const double reach = skyReach * (clouds->upper.y - height);
+    const Extent around{glm::dvec2(clouds->lower.x, clouds->lower.z) - reach,
+                        glm::dvec2(clouds->upper.x, clouds->upper.z) + reach};
+    const glm::vec3 outside = sky_.outside;
+    sky_ = gridOver(around, finest, skyNodes * skyNodes);
+    sky_.outside = outside;
+    fill(
+        sky_, [&](int x, int z) { return skyShare(media, pointAt(sky_.node(x, z)), x, z); }, check);
+    smooth(sky_);
+}
+
+glm::dvec3 GroundLight::radiance(const glm::dvec2& place) const {
+    return ground_.albedo / pi * (openSun_ * sun_.at(place) + openSky_ * sky_.at(place));
+}
+
+}  // namespace lumulus::surface
