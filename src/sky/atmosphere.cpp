@@ -76,16 +76,20 @@ void Atmosphere::add(AirLight& light, const AirPoint& from, double length, int s
 
 AirLight Atmosphere::along(const AirPoint& from, double length, int steps) const {
     AirLight light;
+    extend(light, from, length, steps);
+    return light;
+}
+
+void Atmosphere::extend(AirLight& light, const AirPoint& from, double length, int steps) const {
     AirPoint inside = from;
     if (from.height > airTop) {
         const double entry = distanceToAir(from.height, from.up);
-        if (!(entry < length)) return light;
+        if (!(entry < length)) return;
         inside = from.after(entry);
         inside.height = std::min(inside.height, airTop);
         length -= entry;
     }
     add(light, inside, std::min(length, distanceToTop(inside.height, inside.up)), steps);
-    return light;
 }
 
 AirLight Atmosphere::sky(const AirPoint& from, int steps) const {

@@ -65,6 +65,8 @@ class Atmosphere {
     AirLight sky(const AirPoint& from, int steps = 48) const;
     /// Light of the first `length` metres, that lie above the ground.
     AirLight along(const AirPoint& from, double length, int steps = 32) const;
+    /// Lengthens a path that ends at `from` by `length` metres.
+    void extend(AirLight& light, const AirPoint& from, double length, int steps) const;
     /// Transmittance to the sun's disc, times its visible share.
     Spectrum sunTransmittance(double height, double sun) const;
     /// Radiance of the ground where the sun stands at this cosine to the upward direction [1/sr].
