@@ -15,7 +15,9 @@ struct LightSet {
     std::optional<scene::Ground> ground;  ///< absent: nothing is below the clouds
 
     bool hasSun() const { return sun.irradiance.x > 0.0 || sun.irradiance.y > 0.0 || sun.irradiance.z > 0.0; }
-    bool isDark() const { return !hasSun() && environment.isDark(); }
+    bool isDark() const { return !hasSun() && environment.isDark(sun); }
+    /// Radiance of a constant sky [W/(m² sr)]; black under an atmosphere.
+    glm::dvec3 constantSky() const { return glm::dvec3(environment.params().radiance); }
     /// The sun as it reaches a point through the fog, if there is any, and the air; from below a ground, not at all.
     scene::Sun sunAt(const glm::dvec3& point, const scene::Fog& fog) const;
 };

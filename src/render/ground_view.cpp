@@ -16,7 +16,7 @@ const surface::GroundLight& GroundView::light(gpu::Context& context, World& worl
     }
     if (!light_ || !(cause == cause_)) {
         light_.emplace(*world.lights.ground, mediaOf(context, world, check), sun,
-                       world.lights.environment.uniformRadiance(), check);
+                       world.lights.constantSky(), check);
         cause_ = std::move(cause);
     }
     return *light_;

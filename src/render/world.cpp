@@ -39,7 +39,13 @@ class Maker {
           scene_(scene),
           options_(options),
           report_(report),
-          world_{scene.fog, {scene.sun, scene.sky, scene.ground}, {}, {}, {}, {}, glm::dvec3(0.0)} {}
+          world_{scene.fog,
+                 {scene.sun, {scene.sky, scene.ground, scene.sun.angularDiameter}, scene.ground},
+                 {},
+                 {},
+                 {},
+                 {},
+                 glm::dvec3(0.0)} {}
 
     World make() {
         const Stopwatch loading;
