@@ -109,7 +109,7 @@ TEST(SceneFile, EveryKeyArrives) {
     expected.image = {640, 480, -1.5};
     expected.camera = {glm::dvec3(1, 2, 3.5), glm::dvec3(4, 5, 6), {0, 0, 1}, 30.0, Projection::panorama};
     expected.sun = {{0, 0, 1}, {2, 2, 2}, 1.0};
-    expected.sky = {{0.1, 0.2, 0.3}};
+    expected.sky.radiance = {0.1, 0.2, 0.3};
     Cloud cloud;
     cloud.procedural = "sphere";
     cloud.grid = "density";
@@ -153,7 +153,7 @@ TEST(SceneFile, MessagesNameKeyLineAndMend) {
               "unknown key \"widht\" (x.toml:2, image.widht): did you mean \"width\"?");
     EXPECT_EQ(messageOf("[imag]\nwidth = 3"), "unknown key \"imag\" (x.toml:1, imag): did you mean \"image\"?");
     EXPECT_THAT(messageOf("[[cloud]]\nphase.g = 1.0"), HasSubstr("g must be above -1, below 1, got 1 (x.toml:2"));
-    EXPECT_THAT(messageOf("[[cloud]]\nphase = { model = \"mie\" }"), HasSubstr("cloud.0.phase.model"));
+    EXPECT_THAT(messageOf("[[cloud]]\nphase = { model = \"mist\" }"), HasSubstr("cloud.0.phase.model"));
     EXPECT_THAT(messageOf("[image]\nwidth = 1.5"), HasSubstr("width must be a whole number, got 1.5"));
     EXPECT_THAT(messageOf("[image]\nwidth = 1\n\nwidth = 2"), HasSubstr("(x.toml:4)"));
     EXPECT_THAT(messageOf("image = 3"), HasSubstr("image must be a table, got an integer (x.toml:1, image)"));
