@@ -8,6 +8,7 @@ packages=(
     g++ cmake ninja-build ccache clang-format glslang-tools pkg-config python3 python3-numpy python3-openimageio python3-pil
     # clouds and pictures
     libopenvdb-dev libnanovdb-dev libboost-iostreams-dev libtbb-dev libopenexr-dev libpng-dev libjpeg62-turbo-dev
+    libopencolorio-dev
     # plots
     libcairo2-dev fonts-dejavu-core
     # Vulkan: headers, loader, a driver that runs on the CPU, validation

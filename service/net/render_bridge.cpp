@@ -28,9 +28,15 @@ void stopIfCancelled(const Job& job) {
     if (job.cancelled->load()) throw Cancelled{};
 }
 
-EncodedPictures picturesOf(const Job& job, const FrameRequest& request, const FrameResult& result) {
+Tone shownOn(Tone tone, const std::optional<DisplayTransform>& display) {
+    tone.display = display ? &*display : nullptr;
+    return tone;
+}
+
+EncodedPictures picturesOf(const Job& job, const FrameRequest& request, const FrameResult& result,
+                           const std::optional<DisplayTransform>& display) {
     EncodedPictures pictures;
-    const EncodeOptions options{request.products, request.format, result.exposure, result.background};
+    const EncodeOptions options{request.products, request.format, shownOn(result.tone, display), result.background};
     for (const ViewResult& view : result.views) {
         stopIfCancelled(job);
         appendPicture(view.image, options, pictures);
@@ -39,10 +45,11 @@ EncodedPictures picturesOf(const Job& job, const FrameRequest& request, const Fr
     return pictures;
 }
 
-EncodedPictures picturesOf(const Job& job, const Composite& request, const CompositeResult& result) {
+EncodedPictures picturesOf(const Job& job, const Composite& request, const CompositeResult& result,
+                           const std::optional<DisplayTransform>& display) {
     stopIfCancelled(job);
     EncodedPictures pictures;
-    appendPicture(result.image, {{Product::color}, request.format, result.exposure}, pictures);
+    appendPicture(result.image, {{Product::color}, request.format, shownOn(result.tone, display)}, pictures);
     if (request.format.hash) hashPayload(pictures);
     return pictures;
 }
@@ -59,10 +66,11 @@ Message messageOf(const Job& job, const Composite& request, const CompositeResul
 
 /// Encodes a picture, and tells in `report` what that took.
 template <class Asked, class Result>
-Message encoded(const Job& job, const Result& result, EncodingReport& report) {
+Message encoded(const Job& job, const Result& result, const std::optional<DisplayTransform>& display,
+                EncodingReport& report) {
     const Asked& request = std::get<Asked>(*job.work);
     const auto start = Clock::now();
-    EncodedPictures pictures = picturesOf(job, request, result);
+    EncodedPictures pictures = picturesOf(job, request, result, display);
     report = {millisecondsSince(start), millisecondsSince(job.arrived), pictures.pixels};
     return messageOf(job, request, result, std::move(pictures), {report.milliseconds, report.totalMilliseconds});
 }
@@ -86,6 +94,7 @@ RenderBridge::RenderBridge(const RenderConfig& config, Instruments& instruments,
     : memory_(instruments.memory),
       paths_(config),
       send_(std::move(send)),
+      display_(DisplayTransform::ofEnvironment()),
       encoders_(encoderThreads()),
       service_(config, instruments, outlets(std::move(begun))) {}
 
@@ -122,8 +131,9 @@ void RenderBridge::encode(const FrameTask& task) {
     try {
         EncodingReport report;
         const auto* const frame = std::get_if<FrameResult>(&task.result);
-        Message message = frame != nullptr ? encoded<FrameRequest>(job, *frame, report)
-                                           : encoded<Composite>(job, std::get<CompositeResult>(task.result), report);
+        Message message = frame != nullptr
+                              ? encoded<FrameRequest>(job, *frame, display_, report)
+                              : encoded<Composite>(job, std::get<CompositeResult>(task.result), display_, report);
         MemoryBudget::Share memory = memory_.hold(MemoryBudget::frames, message.json.size() + message.payload.size());
         service_.finish(task, report, [&] { send_(job.client, {std::move(message), true, std::move(memory)}); });
     } catch (const Cancelled&) {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 
+#include "base/display_transform.h"
 #include "service/net/encoder_pool.h"
 #include "service/protocol/message.h"
 #include "service/protocol/requests.h"
@@ -25,7 +26,7 @@ class RenderBridge {
     /// service.
     using Send = std::function<void(ClientId, Outbound)>;
 
-    /// `begun` is RenderService::Outlets::begun. Errors: those of RenderService.
+    /// `begun` is RenderService::Outlets::begun. Errors: those of RenderService and DisplayTransform.
     RenderBridge(const RenderConfig& config, Instruments& instruments, Send send,
                  std::function<void(std::exception_ptr)> begun);
     RenderBridge(const RenderBridge&) = delete;
@@ -43,6 +44,7 @@ class RenderBridge {
     MemoryBudget& memory_;
     ServerPaths paths_;
     Send send_;
+    const std::optional<DisplayTransform> display_;  // of $OCIO
     EncoderPool encoders_;
     RenderService service_;  // last: it hands pictures to the encoders
 };

@@ -83,11 +83,12 @@ std::vector<std::byte> pictureFile(const LayeredImage& image, const EncodeOption
             for (const char* name : layersOf(product).layers) wanted.layers[name] = image.layers.at(name);
         return encodeExr(wanted, "frame");
     }
-    const double exposure = options.format.exposure.value_or(options.exposure);
+    Tone tone = options.tone;
+    tone.stops = options.format.exposure.value_or(tone.stops);
     if (options.format.encoding == Encoding::jpeg)
-        return encodeJpeg(image.width, image.height, toneMap(image, exposure), options.format.quality);
+        return encodeJpeg(image.width, image.height, toneMap(image, tone), options.format.quality);
     return encodePng(image.width, image.height,
-                     options.background ? toneMap(image, exposure) : toneMapWithAlpha(image, exposure));
+                     options.background ? toneMap(image, tone) : toneMapWithAlpha(image, tone));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/tonemap.h"
 #include "service/values/requests.h"
 
 namespace lumulus::service {
@@ -14,7 +15,7 @@ namespace lumulus::service {
 struct EncodeOptions {
     std::vector<Product> products;
     PictureFormat format;
-    double exposure = 0.0;   ///< stops, of the scene; for a format that names none
+    Tone tone;               ///< of the scene; a format may name other stops
     bool background = true;  ///< false: R, G, B are premultiplied by A, and PNG files have alpha
 };
 

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "base/error.h"
 #include "base/version.h"
+#include "scene/tone.h"
 #include "service/render/client_picture.h"
 #include "service/render/describe_scene.h"
 #include "service/render/resample.h"
@@ -362,7 +364,7 @@ FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {
 
     std::ranges::copy(tracePasses(), std::back_inserter(result.passes));
     result.shown = shown();
-    result.exposure = scene_.image.exposure;
+    result.tone = exposures_.toneOf(scene_.image, job, result.views, Clock::now());
     result.background = scene_.image.background;
     result.sunReduction = std::max(1, renderer_->sunReduction());
     return result;
@@ -371,7 +373,6 @@ FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {
 CompositeResult SceneSlot::composite(const Job& job, const Composite& composite) {
     CompositeResult result;
     result.scene = scene_.source;
-    result.exposure = scene_.image.exposure;
     result.waitedMilliseconds = millisecondsSince(job.arrived);
     ViewRequest request;
     request.camera = composite.camera;
@@ -382,6 +383,7 @@ CompositeResult SceneSlot::composite(const Job& job, const Composite& composite)
     std::vector<float> depth = readPixels(composite, picture);
     const Guarded guarded(*this, job.cancelled.get());
     result.image = renderer_->throughFog(view, std::move(picture), std::move(depth));
+    result.tone = scene::toneOf(scene_.image, std::array<const LayeredImage*, 1>{&result.image});
     return result;
 }
 

@@ -13,6 +13,7 @@
 #include "render/renderer.h"
 #include "scene/scene.h"
 #include "service/render/cost_model.h"
+#include "service/render/exposure_desk.h"
 #include "service/render/light_state.h"
 #include "service/render/noise.h"
 #include "service/render/render_config.h"
@@ -156,6 +157,7 @@ class SceneSlot {
     CostModel costs_;
     ViewedLight viewed_;  ///< by viewer_
     NoiseEstimate noise_;
+    ExposureDesk exposures_;
     std::uint64_t revision_ = 1;
     std::deque<Clock::time_point> tracedAt_;  // of the generations in the ring
     Clock::time_point lastTraced_, lastSharpened_;

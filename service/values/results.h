@@ -9,6 +9,7 @@
 
 #include "base/image.h"
 #include "base/pass_time.h"
+#include "base/tonemap.h"
 #include "service/values/requests.h"
 
 /// What the render service answers, as values. A protocol encodes them.
@@ -91,7 +92,7 @@ struct SceneShown {
 struct FrameResult {
     SceneShown shown;
     std::vector<ViewResult> views;
-    double exposure = 0.0;   ///< stops, of the scene
+    Tone tone;               ///< of the scene, and of a meter where it has one
     bool background = true;  ///< of the scene: whether the colours show the sky
     int reduction = 1;       ///< by which the sides of the pictures were divided
     int sunReduction = 1;    ///< by which the sides of the sun's shadow volume were divided
@@ -104,7 +105,7 @@ struct FrameResult {
 struct CompositeResult {
     std::string scene;
     LayeredImage image;
-    double exposure = 0.0;  ///< stops, of the scene
+    Tone tone;  ///< of the scene
     double waitedMilliseconds = 0.0;
 };
 

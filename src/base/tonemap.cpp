@@ -7,19 +7,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/display_transform.h"
+
 namespace lumulus {
 namespace {
-
-/// The filmic curve of Narkowicz 2015 for x ≥ 0. The clamp keeps x² finite; the curve is flat long before.
-double filmic(double x) {
-    x = std::min(x, 1e6);
-    return std::min(1.0, x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14));
-}
-
-double srgb(double linear) {
-    if (linear >= 1.0) return 1.0;  // exactly: rounding would dither white
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
 
 /// Interleaved gradient noise (Jimenez 2014), in [0,1): breaks the bands of a smooth sky without visible texture.
 double ditherAt(int x, int y) {
@@ -28,14 +19,23 @@ double ditherAt(int x, int y) {
     return outer - std::floor(outer);
 }
 
-std::uint8_t encode(double radiance, double dither) {
-    if (!(radiance > 0.0)) return 0;  // NaN too
-    return static_cast<std::uint8_t>(std::min(255.0, std::floor(255.0 * srgb(filmic(radiance)) + dither)));
+std::uint8_t quantised(double encoded, double dither) {
+    return static_cast<std::uint8_t>(std::min(255.0, std::floor(255.0 * encoded + dither)));
+}
+
+/// Encoded values of a row of pixels, three a pixel, in [0,1].
+void encodeRow(const Tone& tone, std::vector<Colour>& row) {
+    if (tone.display != nullptr) return tone.display->apply(row);
+    for (Colour& colour : row) colour = displayed(tone.curve, colour);
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> toneMapWithAlpha(const LayeredImage& image, double exposureStops) {
+double Tone::factor() const {
+    return std::exp2(stops) * gain;
+}
+
+std::vector<std::uint8_t> toneMapWithAlpha(const LayeredImage& image, const Tone& tone) {
     LayeredImage straight;
     straight.width = image.width;
     straight.height = image.height;
@@ -46,7 +46,7 @@ std::vector<std::uint8_t> toneMapWithAlpha(const LayeredImage& image, double exp
         for (std::size_t i = 0; i < colour.size(); ++i)
             colour[i] = alpha[i] > 0.0F ? premultiplied[i] / alpha[i] : 0.0F;
     }
-    const std::vector<std::uint8_t> rgb = toneMap(straight, exposureStops);
+    const std::vector<std::uint8_t> rgb = toneMap(straight, tone);
     std::vector<std::uint8_t> rgba(image.pixels() * 4);
     for (std::size_t i = 0; i < alpha.size(); ++i) {
         std::copy_n(&rgb[3 * i], 3, &rgba[4 * i]);
@@ -56,20 +56,28 @@ std::vector<std::uint8_t> toneMapWithAlpha(const LayeredImage& image, double exp
     return rgba;
 }
 
-std::vector<std::uint8_t> toneMap(const LayeredImage& image, double exposureStops) {
-    const double gain = std::exp2(exposureStops);
+std::vector<std::uint8_t> toneMap(const LayeredImage& image, const Tone& tone) {
+    const double gain = tone.factor();
     const std::array<const float*, 3> channels{image.layers.at("R").data(), image.layers.at("G").data(),
                                                image.layers.at("B").data()};
+    const auto width = static_cast<std::size_t>(image.width);
     std::vector<std::uint8_t> rgb(image.pixels() * 3);
     tbb::parallel_for(0, image.height, [&](int y) {
-        std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width);
-        for (int x = 0; x < image.width; ++x, ++pixel) {
-            const double dither = ditherAt(x, y);
-            for (std::size_t c = 0; c < 3; ++c)
-                rgb[pixel * 3 + c] = encode(gain * static_cast<double>(channels[c][pixel]), dither);
+        const std::size_t first = static_cast<std::size_t>(y) * width;
+        std::vector<Colour> row(width);
+        for (std::size_t x = 0; x < width; ++x)
+            for (std::size_t c = 0; c < 3; ++c) row[x][c] = gain * static_cast<double>(channels[c][first + x]);
+        encodeRow(tone, row);
+        for (std::size_t x = 0; x < width; ++x) {
+            const double dither = ditherAt(static_cast<int>(x), y);
+            for (std::size_t c = 0; c < 3; ++c) rgb[(first + x) * 3 + c] = quantised(row[x][c], dither);
         }
     });
     return rgb;
+}
+
+std::vector<std::uint8_t> toneMap(const LayeredImage& image, double exposureStops) {
+    return toneMap(image, Tone{exposureStops});
 }
 
 }  // namespace lumulus

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
@@ -10,9 +11,11 @@
 #include <system_error>
 
 #include "base/atomic_file.h"
+#include "base/display_transform.h"
 #include "base/error.h"
 #include "base/png.h"
 #include "base/tonemap.h"
+#include "scene/tone.h"
 
 namespace lumulus::cli {
 
@@ -45,8 +48,12 @@ void writePicture(const std::filesystem::path& path, const LayeredImage& image, 
     if (hasSuffix(path, ".exr")) {
         writeExr(path, image, windows);
     } else {
+        const auto display = DisplayTransform::ofEnvironment();
+        const std::array pictures{&image};
+        Tone tone = scene::toneOf(how, pictures);
+        tone.display = display ? &*display : nullptr;
         writePng(path, image.width, image.height,
-                 how.background ? toneMap(image, how.exposure) : toneMapWithAlpha(image, how.exposure));
+                 how.background ? toneMap(image, tone) : toneMapWithAlpha(image, tone));
     }
 }
 

@@ -23,8 +23,8 @@ void requireSuffix(const std::filesystem::path& path, std::initializer_list<std:
 /// Errors: InputError if two of them are the same file, by any names, or if one cannot be written to.
 void checkPlaces(const std::vector<std::filesystem::path>& outputs);
 
-/// Writes a picture by its suffix: .exr with all layers, or .png tone mapped with the exposure of `how`, and with alpha
-/// where `how` leaves the background out. `windows` are those of an EXR file. Errors: those of writing files.
+/// Writes a picture by its suffix: .exr with all layers, or .png with the exposure and tone map of `how`, and with
+/// alpha where `how` leaves the background out. `windows` are those of an EXR file. Errors: those of writing files.
 void writePicture(const std::filesystem::path& path, const LayeredImage& image, const scene::Image& how,
                   const std::optional<ExrWindows>& windows = std::nullopt);
 

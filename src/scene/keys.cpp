@@ -8,13 +8,8 @@ namespace {
 constexpr double koschmieder = 3.912;  // −ln(0.02): optical depth at the visibility (Koschmieder 1924)
 
 constexpr std::array projections{Projection::perspective, Projection::orthographic, Projection::panorama};
-constexpr std::array phaseModels{PhaseModel::henyeyGreenstein,
-                                 PhaseModel::henyeyGreenstein,
-                                 PhaseModel::schlick,
-                                 PhaseModel::rayleigh,
-                                 PhaseModel::hazy,
-                                 PhaseModel::murky,
-                                 PhaseModel::droplet};
+constexpr std::array exposureModes{ExposureMode::stops, ExposureMode::ev100, ExposureMode::automatic};
+constexpr std::array toneMaps{ToneMap::filmic, ToneMap::agx, ToneMap::aces, ToneMap::neutral, ToneMap::linear};
 constexpr std::array majorants{Majorant::automatic, Majorant::local, Majorant::global};
 constexpr std::array drawModes{DrawMode::march, DrawMode::billboards};
 constexpr std::array fogFilters{FogFilter::scatter, FogFilter::masked, FogFilter::naive, FogFilter::gather};
@@ -45,6 +40,21 @@ std::vector<Key> imageAndCameraKeys() {
         number("image.exposure", {-64.0, 64.0}, "0.0",
                "Photographic stops, applied before the tone map of PNG files. EXR files stay linear.",
                [](Draft& d, const Value& v) { d.scene.image.exposure = v.number; }),
+        choice(
+            "image.exposure_mode", {"stops", "ev100", "auto"}, "\"stops\"",
+            "What sets the exposure of PNG files and of encoded frames: `stops` alone; `ev100`, the exposure value of "
+            "a camera, with radiance × 683 lm/W as cd/m²; `auto`, by the clouds themselves, whose 98th percentile "
+            "becomes 0.8. `exposure` adds to each of them.",
+            [](Draft& d, const Value& v) { d.scene.image.exposureMode = exposureModes.at(v.choice); }),
+        number("image.ev100", {-32.0, 32.0}, "15.0",
+               "Exposure value at ISO 100, for `ev100`: white is 1.2 · 2^EV cd/m². 15 is a sunny day, -6 starlight.",
+               [](Draft& d, const Value& v) { d.scene.image.ev100 = v.number; }),
+        choice(
+            "image.tone_map", {"filmic", "agx", "aces", "neutral", "linear"}, "\"filmic\"",
+            "Tone map of PNG files and of encoded frames. `neutral` keeps colours, `linear` cuts off at 1. Where the "
+            "environment variable OCIO names a configuration of OpenColorIO, its default view takes the place of "
+            "all of them.",
+            [](Draft& d, const Value& v) { d.scene.image.toneMap = toneMaps.at(v.choice); }),
         other("image.background", Type::boolean, "true",
               "Whether the picture shows the sky and the sun's disc behind the clouds. `false` leaves them out of R, G "
               "and B: the picture is the clouds alone, premultiplied, with their alpha in A and in PNG files.",
@@ -103,22 +113,6 @@ std::vector<Key> cloudKeys() {
                [](Draft& d, const Value& v) { cloudOf(d).extinction = v.number; }),
         rgb("cloud.albedo", unit, "1.0", "Single-scattering albedo: the share of the extinction that is scattering.",
             [](Draft& d, const Value& v) { cloudOf(d).albedo = v.vector; }),
-    };
-}
-
-std::vector<Key> phaseKeys() {
-    return {
-        choice("cloud.phase.model", {"henyey-greenstein", "hg", "schlick", "rayleigh", "hazy", "murky", "droplet"},
-               "\"henyey-greenstein\"",
-               "`hg` is short for `henyey-greenstein`; `schlick` approximates it; `hazy` and `murky` are Nishita's "
-               "(1987); `droplet` is the fit of Jendersie and d'Eon (2023) for fog and clouds.",
-               [](Draft& d, const Value& v) { cloudOf(d).phase.model = phaseModels.at(v.choice); }),
-        number("cloud.phase.g", {-1.0, 1.0, true, true}, "0.85",
-               "Mean cosine of scattering, for `henyey-greenstein` and `schlick`.",
-               [](Draft& d, const Value& v) { cloudOf(d).phase.g = v.number; }),
-        number("cloud.phase.droplet_diameter", {5.0, 50.0}, "20.0",
-               "Diameter of droplets in micrometres, for `droplet`.",
-               [](Draft& d, const Value& v) { cloudOf(d).phase.dropletDiameter = v.number; }),
     };
 }
 
@@ -284,8 +278,8 @@ const std::vector<Key>& schema() {
     static const std::vector<Key> all = [] {
         std::vector<Key> keys;
         for (const auto& part :
-             {imageAndCameraKeys(), sunAndSkyKeys(), atmosphereKeys(), groundKeys(), cloudKeys(), phaseKeys(),
-              preparationKeys(), photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys()}) {
+             {imageAndCameraKeys(), timeKeys(), sunAndSkyKeys(), atmosphereKeys(), groundKeys(), cloudKeys(),
+              phaseKeys(), preparationKeys(), photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys()}) {
             keys.insert(keys.end(), part.begin(), part.end());
         }
         return keys;

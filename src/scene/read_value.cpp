@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/text.h"
+#include "scene/utc.h"
 
 namespace lumulus::scene {
 namespace {
@@ -100,6 +102,26 @@ struct Reader {
         return string->get();
     }
 
+    /// A string or a date and time of TOML, both of universal time. Returns it as a string.
+    std::string time(const toml::node& node) const {
+        std::string text;
+        if (const auto* given = node.as_date_time()) {
+            const toml::date_time t = given->get();
+            const bool universal = t.offset && t.offset->minutes == 0;
+            text = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:09}{}", t.date.year, t.date.month, t.date.day,
+                               t.time.hour, t.time.minute, t.time.second, t.time.nanosecond, universal ? "Z" : "");
+        } else {
+            const auto* string = node.as_string();
+            if (string == nullptr) wrongType(node);
+            text = string->get();
+        }
+        if (!parseUtc(text))
+            throw InputError(
+                fmt::format("{} must be {}, got \"{}\"", shortName(), typeText(key), shortened(oneLine(text), 40)),
+                where, mend());
+        return text;
+    }
+
     std::size_t choice(const toml::node& node) const {
         const auto* string = node.as_string();
         if (string == nullptr) wrongType(node);
@@ -158,6 +180,9 @@ Value readValue(const toml::node& node, const Key& key, const std::string& where
         case Type::text:
         case Type::path:
             value.text = reader.text(node);
+            break;
+        case Type::time:
+            value.text = reader.time(node);
             break;
         case Type::choice:
             value.choice = reader.choice(node);

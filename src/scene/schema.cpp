@@ -52,6 +52,8 @@ std::string typeText(const Key& key) {
             return "a string";
         case Type::path:
             return "a file name";
+        case Type::time:
+            return "a time as 2026-06-21T10:00:00Z";
         case Type::choice:
             return fmt::format("one of \"{}\"", fmt::join(key.choices, "\", \""));
     }

@@ -13,7 +13,7 @@
 
 namespace lumulus::scene {
 
-enum class Type { number, integer, boolean, vector, rgb, matrix, text, path, choice };
+enum class Type { number, integer, boolean, vector, rgb, matrix, text, path, time, choice };
 
 /// The range of a number, or of each component of a vector. NaN and infinity are always outside.
 struct Range {
@@ -33,7 +33,7 @@ struct Value {
     bool boolean = false;
     glm::dvec3 vector{0.0};  ///< also RGB
     glm::dmat4 matrix{1.0};
-    std::string text;        ///< also a choice
+    std::string text;        ///< also a choice or a time
     std::size_t choice = 0;  ///< index into the choices of the key
 };
 
@@ -46,6 +46,7 @@ struct Draft {
     std::optional<glm::dvec3> directionTo;
     std::optional<double> azimuth, elevation;  ///< sun, degrees
     std::optional<std::size_t> skyPreset;      ///< of the air, which keys of their own change
+    std::optional<double> moonAzimuth, moonElevation;
 };
 
 /// One key of the scene file. The parser, its messages and docs/scene-format.md all come from these rows.

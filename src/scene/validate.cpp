@@ -9,6 +9,8 @@
 #include "base/text.h"
 #include "scene/alternatives.h"
 #include "scene/finish_sky.h"
+#include "scene/phase_table_file.h"
+#include "scene/sun_and_moon.h"
 
 namespace lumulus::scene {
 namespace {
@@ -26,8 +28,9 @@ std::string whereOf(const Settings& settings, std::initializer_list<const char*>
 void checkAlternatives(const Settings& settings) {
     for (const auto& [path, setting] : settings.all()) {
         for (const auto& [a, b] : alternatives) {
-            const std::string other = siblingPath(path, b);
-            if (setting.key->name != a || settings.find(other) == nullptr) continue;
+            if (setting.key->name != a) continue;
+            const std::string other = pathBeside(path, a, b);
+            if (settings.find(other) == nullptr) continue;
             throw InputError(fmt::format("{} and {} exclude each other", path, other), settings.find(other)->where,
                              "give one of them");
         }
@@ -59,20 +62,6 @@ void checkCamera(const Camera& camera, const Settings& settings) {
     }
 }
 
-void finishSun(Draft& draft, const Settings& settings) {
-    if (draft.directionTo) {
-        const double length = glm::length(*draft.directionTo);
-        if (!(length > 1e-12)) {
-            throw InputError("direction_to must have a length", whereOf(settings, {"sun.direction_to"}),
-                             "give a direction towards the sun, as [0, 1, 0]");
-        }
-        draft.scene.sun.directionTo = *draft.directionTo / length;
-    } else if (draft.azimuth || draft.elevation) {
-        draft.scene.sun.directionTo =
-            skyDirection(draft.azimuth.value_or(defaultAzimuth), draft.elevation.value_or(defaultElevation));
-    }
-}
-
 /// Refuses parameters that the model does not use, unless --set has replaced the file's model.
 void checkPhase(const Phase& phase, const std::string& cloud, const Settings& settings) {
     const bool readsG = phase.model == PhaseModel::henyeyGreenstein || phase.model == PhaseModel::schlick;
@@ -88,6 +77,9 @@ void checkPhase(const Phase& phase, const std::string& cloud, const Settings& se
     };
     check(".phase.g", readsG, "henyey-greenstein or schlick");
     check(".phase.droplet_diameter", readsDiameter, "droplet");
+    check(".phase.effective_radius", phase.model == PhaseModel::mie, "mie");
+    check(".phase.effective_variance", phase.model == PhaseModel::mie, "mie");
+    check(".phase.table", phase.model == PhaseModel::table, "table");
 }
 
 /// An entry of an array whose kind decides which of its keys are read.
@@ -167,6 +159,23 @@ void checkCloudFile(const Cloud& cloud, const std::string& path, std::span<const
     }
 }
 
+/// Reads the table of a phase function once, so that what is wrong with it is said with the key.
+void checkPhaseTable(const Phase& phase, const std::string& cloud, std::span<const std::filesystem::path> allowed,
+                     const Settings& settings) {
+    if (phase.model != PhaseModel::table) return;
+    const std::string where = whereOf(settings, {(cloud + ".phase.table").c_str(), (cloud + ".phase.model").c_str()});
+    if (phase.table.empty())
+        throw InputError("the model table needs a file", where, "give table = \"FILE\" of angles and values");
+    if (!isAllowed(phase.table, allowed))
+        throw InputError(fmt::format("{} does not exist", phase.table.string()), where,
+                         "give a file, its path relative to the scene file");
+    try {
+        readPhaseTable(phase.table);
+    } catch (const PhaseTableError& e) {
+        throw InputError(fmt::format("{}: {}", e.place, e.fault), where, e.mend);
+    }
+}
+
 /// Whether `--set cloud.NAME.key` can mean nothing but the cloud of that name.
 bool isName(const std::string& name) {
     const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
@@ -197,13 +206,14 @@ Scene finishScene(Draft draft, const Settings& settings) {
     checkAlternatives(settings);
     checkImage(draft.scene.image, settings);
     checkCamera(draft.scene.camera, settings);
-    finishSun(draft, settings);
+    finishSunAndMoon(draft, settings);
     finishSky(draft, settings);
     for (std::size_t i = 0; i < draft.scene.clouds.size(); ++i) {
         const Cloud& cloud = draft.scene.clouds[i];
         const std::string path = fmt::format("cloud.{}", i);
         checkName(draft.scene.clouds, i, settings);
         checkPhase(cloud.phase, path, settings);
+        checkPhaseTable(cloud.phase, path, draft.allowed, settings);
         checkCloudFile(cloud, path, draft.allowed, settings);
     }
     checkFog(draft.scene.fog, settings);

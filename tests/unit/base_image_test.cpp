@@ -239,7 +239,7 @@ TEST(ToneMap, AlphaIsTakenOutOfTheColours) {
     for (const char* name : {"R", "G", "B"})
         for (std::size_t i = 0; i < 3; ++i) image.layers[name][i] *= alphas[i];
     image.layer("A") = alphas;
-    const std::vector<std::uint8_t> rgba = toneMapWithAlpha(image, 0.5);
+    const std::vector<std::uint8_t> rgba = toneMapWithAlpha(image, Tone{0.5});
     ASSERT_EQ(rgba.size(), 4 * alphas.size());
     const int expected[7] = {255, 128, 64, 0, 0, 255, 0};
     for (std::size_t i = 0; i < alphas.size(); ++i) {

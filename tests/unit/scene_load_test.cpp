@@ -153,7 +153,7 @@ TEST(SceneFile, MessagesNameKeyLineAndMend) {
               "unknown key \"widht\" (x.toml:2, image.widht): did you mean \"width\"?");
     EXPECT_EQ(messageOf("[imag]\nwidth = 3"), "unknown key \"imag\" (x.toml:1, imag): did you mean \"image\"?");
     EXPECT_THAT(messageOf("[[cloud]]\nphase.g = 1.0"), HasSubstr("g must be above -1, below 1, got 1 (x.toml:2"));
-    EXPECT_THAT(messageOf("[[cloud]]\nphase = { model = \"mie\" }"), HasSubstr("cloud.0.phase.model"));
+    EXPECT_THAT(messageOf("[[cloud]]\nphase = { model = \"mist\" }"), HasSubstr("cloud.0.phase.model"));
     EXPECT_THAT(messageOf("[image]\nwidth = 1.5"), HasSubstr("width must be a whole number, got 1.5"));
     EXPECT_THAT(messageOf("[image]\nwidth = 1\n\nwidth = 2"), HasSubstr("(x.toml:4)"));
     EXPECT_THAT(messageOf("image = 3"), HasSubstr("image must be a table, got an integer (x.toml:1, image)"));

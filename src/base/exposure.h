@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "base/image.h"
+
+/// Exposure by what a picture shows. Luminance Y is that of Rec. 709 radiance; 683 Y is in cd/m².
+namespace lumulus {
+
+/// Factor for radiance at an exposure value (ISO 100): the value 1 of the picture is 1.2 · 2^EV cd/m².
+double gainOfEv100(double ev100);
+
+/// EV100 that shows a luminance [W/(m² sr)] as by `gainOfEv100`: the inverse of it.
+double ev100OfGain(double gain);
+
+/// Factor for radiance by which the clouds of the pictures, all together, have their 98th percentile of luminance at
+/// 0.8; where clouds cover less than 2 %, the median of the pictures becomes 0.18 (thesis of Elek, 7.2). The clouds are
+/// taken by themselves from the layers `cloud.R` to `cloud.A`, weighted by `cloud.A`, without sky and sun's disc;
+/// without these layers the picture counts, weighted by `A`. At most 2^18 pixels are looked at. Pixels that are dark or
+/// not numbers do not count; 1 where none does.
+double meteredGain(std::span<const LayeredImage* const> pictures);
+
+}  // namespace lumulus
