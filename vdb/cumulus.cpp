@@ -87,6 +87,7 @@ class Cumulus {
     float voxel_ = 1.0F;      ///< metres
     float edge_ = 1.0F;       ///< metres from clear air to the density inside
     float roughness_ = 0.0F;  ///< metres by which bumps and fray can move the surface, and half of the edge
+    float heights_ = 0.0F;    ///< metres, of the bumps of all octaves
     int octaves_ = 1;         ///< whose bumps are larger than voxels
     int stride_ = 1;          ///< voxels between points of the coarse grid
     std::array<glm::mat3, kOctaves> axes_;  ///< from metres to the cells of an octave
@@ -96,8 +97,8 @@ constexpr float kFray = 15.0F;  ///< metres, of the fray at most
 constexpr float kInset = 9.0F;  ///< metres by which the spheres shrink, so that bumps add no mass
 
 /// Height of an octave's bumps in metres.
-float heightOf(int octave) {
-    return 0.62F * kSizes[static_cast<std::size_t>(octave)];
+float heightOf(std::size_t octave) {
+    return 0.62F * kSizes[octave];
 }
 
 Cumulus::Cumulus(Volume& volume, std::vector<Puff> puffs, std::uint64_t seed)
@@ -110,10 +111,11 @@ Cumulus::Cumulus(Volume& volume, std::vector<Puff> puffs, std::uint64_t seed)
     while (octaves_ < kOctaves && kSizes[static_cast<std::size_t>(octaves_)] > 2.2F * voxel_) ++octaves_;
     while (stride_ < kBlock && 2.0F * static_cast<float>(stride_) * voxel_ < 11.0F) stride_ *= 2;
     roughness_ = 0.5F * edge_ + kFray + kInset;
-    for (int octave = 0; octave < octaves_; ++octave) {
-        roughness_ += std::max(BumpTable::mean, 1.0F - BumpTable::mean) * heightOf(octave);
-        axes_[static_cast<std::size_t>(octave)] = axesOf(octave) / kSizes[static_cast<std::size_t>(octave)];
+    for (std::size_t octave = 0; octave < static_cast<std::size_t>(octaves_); ++octave) {
+        heights_ += heightOf(octave);
+        axes_[octave] = axesOf(static_cast<int>(octave)) / kSizes[octave];
     }
+    roughness_ += std::max(BumpTable::mean, 1.0F - BumpTable::mean) * heights_;
 }
 
 Smooth Cumulus::smoothAt(const glm::vec3& point) const {
@@ -231,11 +233,17 @@ float Cumulus::roughened(const glm::vec3& point, const Smooth& smooth, float dis
     const float growth = smoothRamp(30.0F, 240.0F, point.y + 160.0F * smooth.inside);  // the tops grow, flanks fray
     const float upright = glm::mix(-0.45F, 1.0F, growth);
     const glm::vec3 bent = point + kBend * smooth.warp;
+    distance += kInset + glm::mix(kFray, 3.0F, growth) * smooth.fray;
+    float left = heights_ * upright;  // of the bumps that are still to come
     for (std::size_t octave = 0; octave < static_cast<std::size_t>(octaves_); ++octave) {
-        const float bump = work.bumps[octave].at(axes_[octave] * bent) - BumpTable::mean;
-        distance -= upright * heightOf(static_cast<int>(octave)) * bump;
+        const float outwards = (1.0F - BumpTable::mean) * left, inwards = -BumpTable::mean * left;
+        const float edge = 0.5F * edge_;
+        if (distance - std::max(outwards, inwards) > edge || distance - std::min(outwards, inwards) < -edge) break;
+        const float height = upright * heightOf(octave);
+        distance -= height * (work.bumps[octave].at(axes_[octave] * bent) - BumpTable::mean);
+        left -= height;
     }
-    return distance + kInset + glm::mix(kFray, 3.0F, growth) * smooth.fray;
+    return distance;
 }
 
 float Cumulus::density(const glm::vec3& point, const Smooth& smooth, float distance) const {
