@@ -10,14 +10,14 @@ namespace {
 
 constexpr float kPi = 3.14159265F;
 
-/// One tower: spheres stacked from the ground to `height`, leaning with the wind, thinner towards the top.
+/// One tower: spheres stacked from the ground to `height`, leaning with the wind, bulging below the top.
 void stackTower(std::vector<Puff>& puffs, RandomStream& random, const glm::vec3& foot, float radius, float height) {
     const float lean = random.uniform(0.0F, 0.25F);
     float y = 0.35F * radius;
     float top = 0.0F;
     while (top < height) {
         const float rise = glm::clamp(y / height, 0.0F, 1.0F);
-        const float r = radius * glm::mix(1.0F, 0.72F, rise * rise) * random.uniform(0.88F, 1.08F);
+        const float r = radius * glm::mix(0.9F, 1.0F, std::sin(0.7F * kPi * rise)) * random.uniform(0.88F, 1.08F);
         const float sway = 0.22F * radius;
         const glm::vec3 centre =
             foot + glm::vec3(lean * y + random.uniform(-sway, sway), y, random.uniform(-sway, sway));
@@ -41,7 +41,7 @@ std::vector<Puff> growTowers(RandomStream& random) {
         const float angle = turn + 2.0F * kPi * (static_cast<float>(i) + random.uniform(-0.3F, 0.3F)) / towers;
         const float reach = random.uniform(0.5F, 0.85F);
         const glm::vec3 foot(360.0F * reach * std::cos(angle), 0.0F, 250.0F * reach * std::sin(angle));
-        const float height = 560.0F * (1.05F - 0.62F * reach) * random.uniform(0.65F, 1.25F);
+        const float height = 560.0F * (1.1F - 0.62F * reach) * random.uniform(0.6F, 1.3F);
         stackTower(puffs, random, foot, random.uniform(90.0F, 130.0F), height);
     }
     constexpr int rim = 13;
@@ -76,7 +76,7 @@ std::vector<Puff> growBuds(const std::vector<Puff>& hosts, const std::vector<Puf
             const float flat = std::sqrt(std::max(0.0F, 1.0F - height * height));
             const glm::vec3 direction(flat * std::cos(angle), height, flat * std::sin(angle));
             const float radius = host.radius * random.uniform(smallest, largest);
-            const Puff bud{host.centre + direction * (host.radius * random.uniform(0.76F, 0.97F)), radius};
+            const Puff bud{host.centre + direction * (host.radius * random.uniform(0.86F, 1.06F)), radius};
             if (bud.centre.y > -0.5F * radius && !buried(bud, all)) buds.push_back(bud);
         }
     }
@@ -89,7 +89,7 @@ std::vector<Puff> growPuffs(std::uint64_t seed, float width) {
     RandomStream random(deriveSeed(seed, 0));
     const std::vector<Puff> towers = growTowers(random);
     std::vector<Puff> all = towers;
-    const std::vector<Puff> large = growBuds(towers, all, random, 22, 0.26F, 0.46F);
+    const std::vector<Puff> large = growBuds(towers, all, random, 20, 0.28F, 0.5F);
     all.insert(all.end(), large.begin(), large.end());
     const std::vector<Puff> small = growBuds(large, all, random, 14, 0.26F, 0.44F);
     all.insert(all.end(), small.begin(), small.end());
