@@ -10,6 +10,7 @@
 #include "cloud/instance.h"
 #include "light/instance_light.h"
 #include "light/light_set.h"
+#include "light/shared_shadow.h"
 #include "scene/scene.h"
 #include "volume/summary.h"
 
@@ -23,8 +24,10 @@ struct World {
     std::vector<std::shared_ptr<const cloud::Asset>> assets;
     std::vector<cloud::Instance> instances;   ///< one for each cloud of the scene, in its order
     std::vector<light::InstanceLight> light;  ///< of each instance
-    Bounds bounds;                            ///< of all instances, without their offsets
-    glm::dvec3 wind{0.0};                     ///< velocity with which all instances drift [m/s]
+    /// Where several instances are lit by the sun: shadow volumes with what stands before them.
+    std::optional<light::SharedShadow> sharedShadow;
+    Bounds bounds;         ///< of all instances, without their offsets
+    glm::dvec3 wind{0.0};  ///< velocity with which all instances drift [m/s]
 
     /// Numbers of the instances in which there is something.
     std::vector<std::size_t> visible() const;
