@@ -17,6 +17,7 @@ struct InstanceLight {
     std::optional<ShadowVolume> shadow;        ///< none without a sun
     int shadowReduction = 0;                   ///< of the shadow volume that is up to date (1: whole); 0: it is not
     bool sharpening = false;                   ///< a whole shadow volume is in the making
+    std::uint64_t shadowVersion = 0;           ///< of the shadow volume that is shown
     std::optional<LightCells> cells;
     bool counted = false;       ///< what of `cells` no view changes is up to date
     std::uint64_t version = 1;  ///< of the photons' light: views know by it whether their light fields are up to date

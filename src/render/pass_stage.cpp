@@ -24,6 +24,7 @@ constexpr std::array<Entry, 26> entries{{
     {"light field", Stage::light},
     {"billboard means", Stage::light},
     {"shadow volume", Stage::shadowVolume},
+    {"shared shadow", Stage::shadowVolume},
     {"march", Stage::draw},
     {"billboards", Stage::draw},
     {"interpolate", Stage::draw},

@@ -13,7 +13,7 @@ namespace lumulus {
 
 void PictureOrder::drawLight(ViewState::State& state, photon::Part part) {
     lightView(work, world, state, part, bands, shadowReduction);
-    painter->prepare(work, world, state);
+    painter->prepare(work, state);
 }
 
 /// The frame as it is without a cloud, but for the part that clouds may be seen in.

@@ -35,7 +35,20 @@ void recordShadow(gpu::Commands& commands, const cloud::Instance& instance, ligh
     if (light.shadowReduction != 0 && light.shadowReduction <= reduction) return;
     light.shadow->record(commands, -light.sun.directionTo, instance.medium.extinction, reduction);
     light.shadowReduction = reduction;
+    ++light.shadowVersion;
     light.sharpening = false;
+}
+
+/// Shadow volumes with what stands before them.
+void shareShadows(GpuWork& work, World& world) {
+    std::vector<light::Shading> all;
+    for (const std::size_t i : world.visible()) {
+        const light::InstanceLight& light = world.light[i];
+        all.push_back({&world.instances[i], light.shadow ? &*light.shadow : nullptr, light.shadowVersion});
+    }
+    if (world.sharedShadow->isUpToDate(all)) return;
+    work.run(
+        [&](gpu::Commands& commands) { world.sharedShadow->record(commands, all, -world.lights.sun.directionTo); });
 }
 
 void recordField(gpu::Commands& commands, const cloud::Instance& instance, light::InstanceLight& light,
@@ -78,6 +91,7 @@ void lightView(GpuWork& work, World& world, ViewState::State& view, photon::Part
                 recordField(commands, instance, light, view.instances[i], eyeVoxel(instance, view.camera), part, bands);
         }
     });
+    if (world.sharedShadow) shareShadows(work, world);
 }
 
 }  // namespace lumulus

@@ -39,13 +39,8 @@ class Maker {
           scene_(scene),
           options_(options),
           report_(report),
-          world_{scene.fog,
-                 {scene.sun, {scene.sky, scene.ground, scene.sun.angularDiameter}, scene.ground},
-                 {},
-                 {},
-                 {},
-                 {},
-                 glm::dvec3(0.0)} {}
+          world_{.fog = scene.fog,
+                 .lights = {scene.sun, {scene.sky, scene.ground, scene.sun.angularDiameter}, scene.ground}} {}
 
     World make() {
         const Stopwatch loading;
@@ -59,7 +54,7 @@ class Maker {
             world_.light[i].sun = world_.lights.sunAt(world_.instances[i].bounds.centre, world_.fog);
             prepare(i, placed[i]);
         }
-        for (const std::size_t i : world_.visible()) lightUp(i);
+        lightUpAll();
         if (!placed.empty()) report_.prepareSeconds = preparing.seconds();
         return std::move(world_);
     }
@@ -77,7 +72,7 @@ class Maker {
             instance.offset = glm::dvec3(0.0);
             world_.light[i].sun = world_.lights.sunAt(instance.bounds.centre, world_.fog);
         }
-        for (const std::size_t i : world_.visible()) lightUp(i);
+        lightUpAll();
         return std::move(world_);
     }
 
@@ -86,6 +81,7 @@ class Maker {
     CloudVolumes load();
     void prepare(std::size_t number, const vdb::PlacedVolume& placed);
     const cloud::Asset* findAsset(std::size_t number, const vdb::Volume* volume, double reducedExtinction) const;
+    void lightUpAll();
     void lightUp(std::size_t number);
 
     gpu::Context& context_;
@@ -161,12 +157,18 @@ void Maker::prepare(std::size_t number, const vdb::PlacedVolume& placed) {
     options_.report("preparing the cloud", 1, 1);
 }
 
+void Maker::lightUpAll() {
+    const std::vector<std::size_t> visible = world_.visible();
+    for (const std::size_t i : visible) lightUp(i);
+    if (visible.size() > 1 && world_.hasShadows()) world_.sharedShadow.emplace(context_);
+}
+
 /// What of the instance's light is made beforehand. Photons are shared out by what falls on each instance.
 void Maker::lightUp(std::size_t number) {
     const cloud::Instance& instance = world_.instances[number];
     light::InstanceLight& light = world_.light[number];
     const bool scatters = instance.medium.scatters();
-    if (scatters && world_.lights.hasSun()) light.shadow.emplace(context_, *instance.asset);
+    if (scatters && world_.lights.hasSun()) light.shadow.emplace(context_, *instance.asset, instance.voxelToMetres);
     if (!scatters || world_.lights.isDark()) return;
     const scene::PhotonMap& wanted = scene_.photonMap;
     double area = 0.0;

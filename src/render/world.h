@@ -11,6 +11,7 @@
 #include "cloud/instance.h"
 #include "light/instance_light.h"
 #include "light/light_set.h"
+#include "light/shared_shadow.h"
 #include "query/bricks.h"
 #include "scene/scene.h"
 #include "volume/summary.h"
@@ -22,11 +23,13 @@ struct World {
     scene::Fog fog;
     light::LightSet lights;
     /// Each shared by the instances that show it, and by worlds that differ in light.
-    std::vector<std::shared_ptr<const cloud::Asset>> assets;
-    std::vector<cloud::Instance> instances;   ///< one for each cloud of the scene, in its order
-    std::vector<light::InstanceLight> light;  ///< of each instance
-    Bounds bounds;                            ///< of all instances, without their offsets
-    glm::dvec3 wind{0.0};                     ///< velocity with which all instances drift [m/s]
+    std::vector<std::shared_ptr<const cloud::Asset>> assets{};
+    std::vector<cloud::Instance> instances{};   ///< one for each cloud of the scene, in its order
+    std::vector<light::InstanceLight> light{};  ///< of each instance
+    /// Where several instances are lit by the sun: shadow volumes with what stands before them.
+    std::optional<light::SharedShadow> sharedShadow{};
+    Bounds bounds{};       ///< of all instances, without their offsets
+    glm::dvec3 wind{0.0};  ///< velocity with which all instances drift [m/s]
     /// Densities on the host, of the assets that a question has needed them of.
     std::map<const cloud::Asset*, std::shared_ptr<const query::BrickField>> fields{};
 
