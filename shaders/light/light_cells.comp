@@ -20,10 +20,8 @@ layout(binding = 5, scalar) readonly buffer LitCells { uint litCells[]; };
 layout(binding = 6, rgba32f) uniform readonly image2D colours;  // RGB fluence of the collectors
 layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
-/// Where there are bricks there are many voxels: some stand for all of a cell.
-const int STRIDE = SPARSE ? max(EDGE / 4, 1) : 1;
-
 void main() {
+    const int STRIDE = SPARSE ? max(EDGE / 4, 1) : 1;  // where there are many voxels, some stand for all of a cell
     const uint entry = linearInvocation(64u);
     if (entry >= push.occupied) return;
     const ivec3 cell = cellNumbered(litCells[entry], push.grid);

@@ -66,10 +66,8 @@ vec3 fluxDeviation(ivec3 cell, vec3 collectors) {
     return (fluxIn(first, across) - amount * collectors) / (amount + FLUX_PRIOR * push.photon);
 }
 
-/// Where there are bricks there are many voxels: some stand for all of a cell.
-const int STRIDE = SPARSE ? max(EDGE / 4, 1) : 1;
-
 void main() {
+    const int STRIDE = SPARSE ? max(EDGE / 4, 1) : 1;  // where there are many voxels, some stand for all of a cell
     const uint entry = linearInvocation(64u);
     if (entry >= push.occupied) return;
     const ivec3 cell = cellNumbered(litCells[entry], push.grid);

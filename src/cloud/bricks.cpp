@@ -35,24 +35,26 @@ class SlotUpload {
         : context_(context),
           pool_(pool),
           slotBytes_(slotBytes),
-          staging_(context, "brick staging", together * slotBytes, gpu::Memory::host) {}
+          stride_((slotBytes + 3) / 4 * 4),
+          staging_(context, "brick staging", together * stride_, gpu::Memory::host) {}
 
     void upload(const vdb::SparseVolume& volume, std::uint32_t first, std::span<const std::byte> texels) {
         const std::uint64_t slots = texels.size() / slotBytes_;
         for (std::uint64_t begin = 0; begin < slots; begin += together) {
             const std::uint64_t count = std::min(together, slots - begin);
-            const auto part = texels.subspan(begin * slotBytes_, count * slotBytes_);
-            std::ranges::copy(part, staging_.mapped<std::byte>().begin());
             std::vector<VkBufferImageCopy> regions;
-            for (std::uint64_t i = 0; i < count; ++i)
+            for (std::uint64_t i = 0; i < count; ++i) {
+                const auto slot = texels.subspan((begin + i) * slotBytes_, slotBytes_);
+                std::ranges::copy(slot, staging_.mapped<std::byte>().subspan(i * stride_).begin());
                 regions.push_back(
                     regionOf(volume.slotAt(volume.firstSlot + first + static_cast<std::uint32_t>(begin + i)), i));
+            }
             context_.immediately([&](VkCommandBuffer commands) {
                 context_.api().vkCmdCopyBufferToImage(commands, staging_.handle(), pool_.handle(),
                                                       VK_IMAGE_LAYOUT_GENERAL,
                                                       static_cast<std::uint32_t>(regions.size()), regions.data());
             });
-            context_.addUploaded(part.size());
+            context_.addUploaded(count * slotBytes_);
         }
     }
 
@@ -62,7 +64,7 @@ class SlotUpload {
     VkBufferImageCopy regionOf(const glm::uvec3& slot, std::uint64_t number) const {
         constexpr std::uint32_t edge = vdb::SparseVolume::slotEdge;
         const glm::ivec3 corner(edge * slot);
-        return {number * slotBytes_,
+        return {number * stride_,
                 0,
                 0,
                 {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
@@ -72,7 +74,7 @@ class SlotUpload {
 
     gpu::Context& context_;
     const gpu::Image& pool_;
-    std::uint64_t slotBytes_;
+    std::uint64_t slotBytes_, stride_;  ///< offsets of copies are multiples of 4 on some devices
     gpu::Buffer staging_;
 };
 
@@ -90,7 +92,8 @@ std::shared_ptr<const gpu::Image> makePool(gpu::Context& context, std::span<vdb:
     const auto layer = static_cast<std::size_t>(width) * static_cast<std::size_t>(width);
     const auto layers = static_cast<int>(std::max<std::size_t>((slots + layer - 1) / layer, 1));
     const glm::ivec3 size = vdb::SparseVolume::slotEdge * glm::ivec3(width, width, layers);
-    auto pool = std::make_shared<const gpu::Image>(context, "density bricks", size, formatOf(format));
+    auto pool = std::make_shared<gpu::Image>(context, "density bricks", size, formatOf(format));
+    gpu::clear(context, *pool);  // slots that nobody has must not hold what is no number
     SlotUpload upload(context, *pool, vdb::SparseVolume::slotTexels * vdb::texelBytes(format));
     std::uint32_t first = 0;
     for (vdb::SparseVolume* volume : volumes) {

@@ -15,12 +15,14 @@ struct DrawFeatures {
     bool forwardCut = false;  ///< the forward peak is cut
     bool sun = false;
     bool photons = false;
-    bool grey = false;  ///< the albedo of each cloud is the same for all colours
-    bool many = false;  ///< more than one instance
+    bool grey = false;    ///< the albedo of each cloud is the same for all colours
+    bool many = false;    ///< more than one instance
+    bool sparse = false;  ///< densities are in bricks
 
     std::vector<gpu::SpecConstant> constants() const {
-        return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun), gpu::SpecConstant::of(2, photons),
-                gpu::SpecConstant::of(3, grey), gpu::SpecConstant::of(4, many)};
+        return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun),
+                gpu::SpecConstant::of(2, photons),    gpu::SpecConstant::of(3, grey),
+                gpu::SpecConstant::of(4, many),       gpu::SpecConstant::of(15, sparse)};
     }
 };
 
@@ -35,6 +37,7 @@ struct PhaseTables {
 /// The volumes that rays go through: those of the one instance, or atlases of all.
 struct Volumes {
     const gpu::Image& density;
+    const gpu::Image& bricks;  ///< their index; any image of integers where the density is dense
     const gpu::Image& majorants;
     const gpu::Image& lightField;
     const gpu::Image& shadowVolume;
@@ -57,6 +60,7 @@ struct DrawInputs {
                 {"singleScatterH", phase.before},
                 {"singleScatterK", phase.after},
                 {"density", volumes.density, gpu::Sampler::linear},
+                {"bricks", volumes.bricks, gpu::Sampler::nearest},
                 {"lightField", volumes.lightField, gpu::Sampler::linearClamp},
                 {"shadowVolume", volumes.shadowVolume, gpu::Sampler::linearClamp},
                 {"Pixels", pixels},
