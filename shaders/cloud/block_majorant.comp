@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 // Largest texel that trilinear interpolation inside a block of voxels can see.
 #include "shared/cloud.h"
-#include "lib/density.glsl"
 #include "lib/linear.glsl"
 
 layout(local_size_x = 64) in;

@@ -12,6 +12,7 @@ layout(binding = 0) uniform sampler3D density;
 layout(binding = 1, scalar) readonly buffer Bounds { float bounds[]; };
 layout(binding = 2, scalar) readonly buffer Cumulative { uint cumulative[]; };  // up to and with each block, of 2³²
 layout(binding = 3, scalar) writeonly buffer Samples { vec4 samples[]; };       // voxel coordinates, density
+layout(binding = 4, scalar) readonly buffer Places { ivec3 places[]; };         // of the blocks, where these are bricks
 layout(push_constant, scalar) uniform Push { SamplePush push; };
 
 /// First block whose cumulative share exceeds u.
@@ -26,6 +27,13 @@ uint findBlock(uint u, uint count) {
     return low;
 }
 
+/// Of a block, in blocks.
+ivec3 placeOf(uint block) {
+    if (SPARSE) return places[block];
+    const uvec3 blocks = uvec3(push.blocks);
+    return ivec3(block % blocks.x, (block / blocks.x) % blocks.y, block / (blocks.x * blocks.y));
+}
+
 void main() {
     const uint index = linearInvocation(64u);
     if (index >= push.samples) return;
@@ -38,8 +46,7 @@ void main() {
         const uvec4 bits = pcg4d(uvec4(index, trial, 0x5A3Du, push.seed));
         const vec4 u = rngUniform4(uvec4(index, trial, 0x5A3Eu, push.seed));
         const uint block = findBlock(bits.x, blocks.x * blocks.y * blocks.z);
-        const uvec3 corner = uvec3(block % blocks.x, (block / blocks.x) % blocks.y, block / (blocks.x * blocks.y));
-        point = float(BLOCK_EDGE) * (vec3(corner) + u.xyz);
+        point = float(SPARSE ? BRICK_EDGE : BLOCK_EDGE) * (vec3(placeOf(block)) + u.xyz);
         const bool inside = all(lessThan(point, vec3(push.size)));
         accepted = inside && u.w * bounds[block] < gradientAt(density, point, inverseSize, push.gradientToMetres);
     }

@@ -1,20 +1,36 @@
-// Look-ups into the density volume, in voxel coordinates: voxel (i,j,k) has its value at (i+½, j+½, k+½).
+// Look-ups into the density volume, in voxel coordinates: voxel (i,j,k) has its value at (i+½, j+½, k+½). The volume is an
+// image of all voxels or, where SPARSE is set, a pool of bricks with an index (lib/bricks.glsl).
 #ifndef LUMULUS_LIB_DENSITY
 #define LUMULUS_LIB_DENSITY
 
-float densityAt(sampler3D density, vec3 voxel, vec3 inverseSize) { return texture(density, voxel * inverseSize).r; }
+#include "lib/bricks.glsl"
+
+float densityAt(sampler3D density, vec3 voxel, vec3 inverseSize) {
+    if (SPARSE) return brickDensity(density, voxel, ivec3(round(1.0 / inverseSize)), 0u);
+    return texture(density, voxel * inverseSize).r;
+}
 
 /// Value of one voxel; zero outside.
 float densityOf(sampler3D density, ivec3 voxel, ivec3 size) {
     const bool inside = all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, size));
+    if (SPARSE) return inside ? brickDensityNear(density, vec3(voxel) + 0.5, vec3(0.5), size, 0u) : 0.0;
     return inside ? texelFetch(density, voxel, 0).r : 0.0;
+}
+
+/// Where a random number places a point among the eight voxels around it: to be added to it before rounding down.
+vec3 nearStep(vec2 u) {
+    const float fine = 4096.0 * u.x;  // of 24 bits, half for y and half for z
+    return vec3(u.y, (floor(fine) + 0.5) / 4096.0, fract(fine));
 }
 
 /// One of the eight voxels around a place, each with its weight in the interpolation between them: one look-up then has
 /// the mean of the interpolated density. That is exact where only the mean counts, as for whether a collision is real.
-ivec3 voxelNear(vec3 voxel, vec2 u) {
-    const float fine = 4096.0 * u.x;  // of 24 bits, half for y and half for z
-    return ivec3(floor(voxel - 0.5 + vec3(u.y, (floor(fine) + 0.5) / 4096.0, fract(fine))));
+ivec3 voxelNear(vec3 voxel, vec2 u) { return ivec3(floor(voxel - 0.5 + nearStep(u))); }
+
+/// The density of that voxel.
+float densityOfNear(sampler3D density, vec3 voxel, vec2 u, ivec3 size) {
+    if (SPARSE) return brickDensityNear(density, voxel, nearStep(u), size, 0u);
+    return densityOf(density, voxelNear(voxel, u), size);
 }
 
 /// Exact integral of the trilinear field over one voxel's cube: in each axis (⅛, ¾, ⅛), which two taps at ±¼ give;
@@ -26,6 +42,17 @@ vec4 voxelMass(sampler3D density, ivec3 voxel, vec3 inverseSize) {
         sum += vec4(1.0, 0.5 + offset) * densityAt(density, vec3(voxel) + 0.5 + offset, inverseSize);
     }
     return 0.125 * sum;
+}
+
+/// Whether interpolation finds nothing in a brick's voxels, from face to face: it and those below it are empty.
+bool isEmptyAround(ivec3 brick, ivec3 size) {
+    for (int i = 0; i < 8; ++i) {
+        const ivec3 at = brick - ivec3(i & 1, (i >> 1) & 1, i >> 2);
+        if (all(greaterThanEqual(at, ivec3(0))) &&
+            texelFetch(bricks, indexTexel(brickEntry(at, size, 0u)), 0).y != 0u)
+            return false;
+    }
+    return true;
 }
 
 #endif

@@ -29,6 +29,7 @@ Line lineIn(InstanceParams instance, vec3 origin, vec3 direction) {
 
 /// Density of an instance, normalised. In an atlas neighbours must not shine through: the outermost voxels are empty.
 float densityIn(InstanceParams instance, sampler3D density, vec3 voxel) {
+    if (SPARSE) return brickDensity(density, voxel, ivec3(instance.size), MANY ? uint(instance.firstBrick) : 0u);
     if (!MANY) return densityAt(density, voxel, 1.0 / instance.size);
     return densityAt(density, instance.densityOrigin + clamp(voxel, vec3(0.5), instance.size - 0.5), params.atlas.density);
 }

@@ -8,6 +8,7 @@
 #include "shared/collision_estimator.h"
 #include "shared/photon.h"
 #include "shared/sun_axis.h"
+#include "lib/collector.glsl"
 #include "lib/luminance.glsl"
 #include "lib/packing.glsl"
 
@@ -38,7 +39,7 @@ void addToAxis(TraceParams params, uint collector, vec3 direction, vec3 power) {
 /// Light of this power [record units] that travels in a direction, at a place, as record number `place`. False: no
 /// collector is there, and nothing is left.
 bool store(TraceParams params, vec3 voxel, vec3 direction, vec3 power, bool ofSun, uint place) {
-    const uint collector = texelFetch(collectorIndex, ivec3(min(voxel, params.size - 0.5)), 0).r;
+    const uint collector = collectorOf(collectorIndex, ivec3(min(voxel, params.size - 0.5)), ivec3(params.size));
     if (collector >= params.collectors) return false;
     records[place] = PhotonRecord(collector, packDirection(direction), packPower(power));
     if (params.estimatorEdge > 0) addEstimate(params, voxel, direction, COEFFICIENT_SCALE * luminance(power));

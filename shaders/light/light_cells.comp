@@ -4,6 +4,7 @@
 // counted in the cell (light_counts.comp). Fourth component: 1 where voxels have density.
 #include "shared/draw.h"
 #include "shared/photon.h"
+#include "lib/collector.glsl"
 #include "lib/density.glsl"
 #include "lib/linear.glsl"
 #include "lib/luminance.glsl"
@@ -20,18 +21,19 @@ layout(binding = 6, rgba32f) uniform readonly image2D colours;  // RGB fluence o
 layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
 void main() {
+    const int STRIDE = SPARSE ? max(EDGE / 4, 1) : 1;  // where there are many voxels, some stand for all of a cell
     const uint entry = linearInvocation(64u);
     if (entry >= push.occupied) return;
     const ivec3 cell = cellNumbered(litCells[entry], push.grid);
     vec4 light = vec4(0.0);
     vec3 colour = vec3(0.0);  // of all light in the cell, wherever it goes
-    for (int z = 0; z < EDGE; ++z)
-        for (int y = 0; y < EDGE; ++y)
-            for (int x = 0; x < EDGE; ++x) {
+    for (int z = STRIDE / 2; z < EDGE; z += STRIDE)
+        for (int y = STRIDE / 2; y < EDGE; y += STRIDE)
+            for (int x = STRIDE / 2; x < EDGE; x += STRIDE) {
                 const ivec3 voxel = EDGE * cell + ivec3(x, y, z);
                 const float mass = densityOf(density, voxel, push.size);
                 if (mass > 0.0) {
-                    const uint collector = texelFetch(collectorIndex, voxel, 0).r;
+                    const uint collector = collectorOf(collectorIndex, voxel, push.size);
                     light += mass * imageLoad(radiance, collectorTexel(collector));
                     colour += mass * imageLoad(colours, collectorTexel(collector)).rgb;
                 }

@@ -6,6 +6,7 @@
 #include "shared/collision_estimator.h"
 #include "shared/draw.h"
 #include "shared/photon.h"
+#include "lib/collector.glsl"
 #include "lib/density.glsl"
 #include "lib/linear.glsl"
 
@@ -66,18 +67,19 @@ vec3 fluxDeviation(ivec3 cell, vec3 collectors) {
 }
 
 void main() {
+    const int STRIDE = SPARSE ? max(EDGE / 4, 1) : 1;  // where there are many voxels, some stand for all of a cell
     const uint entry = linearInvocation(64u);
     if (entry >= push.occupied) return;
     const ivec3 cell = cellNumbered(litCells[entry], push.grid);
     vec4 light = vec4(0.0);  // flux, fluence
     float mass = 0.0;
-    for (int z = 0; z < EDGE; ++z)
-        for (int y = 0; y < EDGE; ++y)
-            for (int x = 0; x < EDGE; ++x) {
+    for (int z = STRIDE / 2; z < EDGE; z += STRIDE)
+        for (int y = STRIDE / 2; y < EDGE; y += STRIDE)
+            for (int x = STRIDE / 2; x < EDGE; x += STRIDE) {
                 const ivec3 voxel = EDGE * cell + ivec3(x, y, z);
                 const float here = densityOf(density, voxel, push.size);
                 if (here > 0.0) {
-                    const uint collector = texelFetch(collectorIndex, voxel, 0).r;
+                    const uint collector = collectorOf(collectorIndex, voxel, push.size);
                     light += here * imageLoad(fluences, collectorTexel(collector));
                     mass += here;
                 }

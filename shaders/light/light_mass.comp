@@ -10,6 +10,14 @@ layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform writeonly image3D cellMass;
 layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
+float massOf(ivec3 lower, ivec3 upper, vec3 inverseSize) {
+    float sum = 0.0;
+    for (int z = lower.z; z < upper.z; ++z)
+        for (int y = lower.y; y < upper.y; ++y)
+            for (int x = lower.x; x < upper.x; ++x) sum += voxelMass(density, ivec3(x, y, z), inverseSize).x;
+    return sum;
+}
+
 void main() {
     const uint index = linearInvocation(64u);
     if (index >= uint(push.grid.x) * uint(push.grid.y) * uint(push.grid.z)) return;
@@ -17,9 +25,18 @@ void main() {
     const ivec3 lower = push.edge * cell;
     const ivec3 upper = min(lower + push.edge, push.size);
     const vec3 inverseSize = 1.0 / vec3(push.size);
+    if (!SPARSE) {
+        imageStore(cellMass, cell, vec4(massOf(lower, upper, inverseSize)));
+        return;
+    }
     float sum = 0.0;
-    for (int z = lower.z; z < upper.z; ++z)
-        for (int y = lower.y; y < upper.y; ++y)
-            for (int x = lower.x; x < upper.x; ++x) sum += voxelMass(density, ivec3(x, y, z), inverseSize).x;
+    const ivec3 first = lower / BRICK_EDGE, last = (upper - 1) / BRICK_EDGE;
+    for (int z = first.z; z <= last.z; ++z)
+        for (int y = first.y; y <= last.y; ++y)
+            for (int x = first.x; x <= last.x; ++x) {
+                const ivec3 corner = BRICK_EDGE * ivec3(x, y, z);
+                if (!isEmptyAround(ivec3(x, y, z), push.size))
+                    sum += massOf(max(corner, lower), min(corner + BRICK_EDGE, upper), inverseSize);
+            }
     imageStore(cellMass, cell, vec4(sum));
 }

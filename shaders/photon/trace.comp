@@ -45,8 +45,9 @@ ScatterAngle samplePhase(float u) {
 
 /// A random number of the density's mean (lib/density.glsl).
 float densityNear(vec3 voxel, vec2 u) {
+    if (!PERIODIC) return densityOfNear(density, voxel, u, ivec3(params.size));
     ivec3 near = voxelNear(voxel, u);
-    if (PERIODIC) near = clamp(near, ivec3(0), ivec3(params.size) - 1);  // a layer is as dense at its faces
+    near = clamp(near, ivec3(0), ivec3(params.size) - 1);  // a layer is as dense at its faces
     return densityOf(density, near, ivec3(params.size));
 }
 

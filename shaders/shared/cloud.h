@@ -42,12 +42,19 @@ struct LeafPush {
     uint leaves;
 };
 
+/// Texels of an index of bricks, and where they go.
+struct CopyIndexPush {
+    uint count;
+    uint first;
+};
+
 #ifdef __cplusplus
 // Scalar layout, as SPIR-V has it; tests/unit/shared_layout_test.cpp compares every member.
 static_assert(sizeof(LeafBox) == 24 && offsetof(LeafBox, upper) == 12);
 static_assert(sizeof(LeafStatistics) == 24 && offsetof(LeafStatistics, occupied) == 20);
 static_assert(sizeof(BlockPush) == 60 && offsetof(BlockPush, gradientToMetres) == 24);
 static_assert(sizeof(SamplePush) == 68 && offsetof(SamplePush, seed) == 64);
+static_assert(sizeof(CopyIndexPush) == 8 && offsetof(CopyIndexPush, first) == 4);
 static_assert(sizeof(LeafPush) == 16 && offsetof(LeafPush, leaves) == 12);
 #endif
 

@@ -29,6 +29,7 @@ struct InstanceParams {
     vec3 densityOrigin, lightOrigin, shadowOrigin;
     ivec3 cellOrigin;
     vec3 lightSize, shadowSize;
+    int firstBrick;  // of its bricks in the index of all, where the density is in bricks
 };
 
 /// Reciprocals of the atlases' sizes [1/texels]; unused where there is one instance.
@@ -62,7 +63,7 @@ struct SharedShadowPush {
 #ifdef __cplusplus
 static_assert(sizeof(Occluder) == 72 && offsetof(Occluder, size) == 60);
 static_assert(sizeof(SharedShadowPush) == 32 && offsetof(SharedShadowPush, occluders) == 28);
-static_assert(sizeof(InstanceParams) == 276 && offsetof(InstanceParams, shadowSize) == 264);
+static_assert(sizeof(InstanceParams) == 280 && offsetof(InstanceParams, firstBrick) == 276 && offsetof(InstanceParams, shadowSize) == 264);
 static_assert(sizeof(AtlasParams) == 36 && offsetof(AtlasParams, shadow) == 24);
 static_assert(sizeof(CopyVolumePush) == 24 && offsetof(CopyVolumePush, origin) == 12);
 #endif

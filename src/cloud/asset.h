@@ -2,14 +2,17 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "cloud/kdtree.h"
 #include "gpu/memory.h"
+#include "gpu/program.h"
 #include "scene/scene.h"
 #include "vdb/placed_volume.h"
 #include "vdb/quantise.h"
+#include "vdb/sparse_volume.h"
 
 namespace lumulus::cloud {
 
@@ -61,8 +64,12 @@ struct Asset {
     glm::dmat3 voxelToMetres;  ///< edges of a voxel as they lie in the world, columns [m]
     double voxelVolume = 0.0;  ///< m³
     vdb::DensityFormat format = vdb::DensityFormat::r16f;
-    gpu::Image density;         ///< normalised: 1 is the field's maximum
-    gpu::Image collectorIndex;  ///< number of the collector of each voxel; the format's largest value: none
+    /// Normalised: 1 is the field's maximum. All voxels, or a pool of bricks, which other assets have slots in too.
+    std::shared_ptr<const gpu::Image> density;
+    std::optional<gpu::Image> bricks;  ///< the index of the density's bricks (lib/bricks.glsl); none where it is dense
+    /// Number of the collector of each voxel, the format's largest value: none. Of bricks: nodes of the kD-tree
+    /// (lib/collector.glsl).
+    gpu::Image collectorIndex;
     MajorantGrid majorants;     ///< that photons walk through: a single one or one a cell
     gpu::Image majorantImage;
     MajorantGrid cells;                   ///< one a cell always: where a march finds empty space
@@ -73,6 +80,11 @@ struct Asset {
     PreparationTimes times;
 
     const gpu::Image& marchedCells() const { return cellImage ? *cellImage : majorantImage; }
+    bool isSparse() const { return bricks.has_value(); }
+    /// What shaders are given as `bricks`; any image of integers where there are none.
+    const gpu::Image& brickIndex() const { return bricks ? *bricks : collectorIndex; }
+    /// What every program that looks density up is made with.
+    gpu::SpecConstant sparseConstant() const { return gpu::SpecConstant::of(15, isSparse()); }
 };
 
 struct PrepareOptions {
@@ -86,6 +98,10 @@ struct PrepareOptions {
 /// be empty. Errors: Error where interrupted.
 Asset prepare(gpu::Context& context, const vdb::PlacedVolume& placed, const PrepareOptions& options);
 
+/// The same for a field in bricks, whose texels lie in `pool` already (makePool); `toWorld`: where the cloud has it.
+Asset prepareBricks(gpu::Context& context, const vdb::SparseVolume& volume, const vdb::Affine& toWorld,
+                    std::shared_ptr<const gpu::Image> pool, const PrepareOptions& options);
+
 /// What the GPU reads: the majorant of each cell, or where that is 0, −d with d the Chebyshev distance, in cells, to
 /// the nearest cell with a majorant (the sum of the grid's edges where there is none). A walk may cross all cells
 /// nearer than d at once.
@@ -94,5 +110,8 @@ std::vector<float> majorantsAndDistances(const MajorantGrid& grid);
 /// Majorants on cells of `edge` blocks, or a single one for the whole volume (edge 0), from those of the blocks.
 MajorantGrid majorantGrid(const std::vector<float>& blockMaxima, const glm::ivec3& blocks, const glm::ivec3& size,
                           int edge, double mass);
+
+/// Those of bricks, which fillSlots() has made; `global`: a single one.
+MajorantGrid majorantGrid(const vdb::SparseVolume& volume, bool global, double mass);
 
 }  // namespace lumulus::cloud

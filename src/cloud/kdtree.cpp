@@ -259,8 +259,8 @@ KdTree buildKdTree(std::vector<Sample> samples, const glm::ivec3& size, const Kd
     return Builder(std::move(samples), size, options).build();
 }
 
-BlockDensity::BlockDensity(std::span<const float> density, const glm::ivec3& size, float maximum)
-    : blocks_((size + shared::BLOCK_EDGE - 1) / shared::BLOCK_EDGE), size_(size) {
+BlockDensity::BlockDensity(std::span<const float> density, const glm::ivec3& size, float maximum, int scale)
+    : blocks_((size + shared::BLOCK_EDGE - 1) / shared::BLOCK_EDGE), size_(size), scale_(scale) {
     const glm::ivec3 table = blocks_ + 1;
     sums_.assign(
         static_cast<std::size_t>(table.x) * static_cast<std::size_t>(table.y) * static_cast<std::size_t>(table.z), 0.0);
@@ -296,8 +296,9 @@ double BlockDensity::prefix(int x, int y, int z) const {
 }
 
 double BlockDensity::mean(const shared::LeafBox& box) const {
-    const glm::ivec3 low = box.lower / shared::BLOCK_EDGE;
-    const glm::ivec3 high = (box.upper + shared::BLOCK_EDGE - 1) / shared::BLOCK_EDGE;
+    const int edge = shared::BLOCK_EDGE * scale_;
+    const glm::ivec3 low = box.lower / edge;
+    const glm::ivec3 high = (box.upper + edge - 1) / edge;
     const double sum = prefix(high.x, high.y, high.z) - prefix(low.x, high.y, high.z) - prefix(high.x, low.y, high.z) -
                        prefix(high.x, high.y, low.z) + prefix(low.x, low.y, high.z) + prefix(low.x, high.y, low.z) +
                        prefix(high.x, low.y, low.z) - prefix(low.x, low.y, low.z);

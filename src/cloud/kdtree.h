@@ -18,13 +18,15 @@ struct Sample {
 class BlockDensity {
   public:
     /// `density` holds size.x·size.y·size.z values, x fastest; means come out divided by `maximum`.
-    BlockDensity(std::span<const float> density, const glm::ivec3& size, float maximum);
+    /// Where a value stands for `scale` voxels along each axis, boxes count in those voxels.
+    BlockDensity(std::span<const float> density, const glm::ivec3& size, float maximum, int scale = 1);
     /// Mean over the blocks that the box touches.
     double mean(const shared::LeafBox& box) const;
 
   private:
     glm::ivec3 blocks_;
     glm::ivec3 size_;
+    int scale_;
     std::vector<double> sums_;  // (blocks + 1)³ prefix sums
     double prefix(int x, int y, int z) const;
 };

@@ -9,6 +9,23 @@ namespace {
 /// Room for the rounding of the interpolation hardware.
 constexpr float slack = 1.0F + 1e-5F;
 
+void countNullCollisions(MajorantGrid& grid, const glm::ivec3& size, double mass) {
+    const auto index = [](const glm::ivec3& at, const glm::ivec3& extent) {
+        return static_cast<std::size_t>((at.z * extent.y + at.y) * extent.x + at.x);
+    };
+    double tentative = 0.0;
+    for (int z = 0; z < grid.cells.z; ++z)
+        for (int y = 0; y < grid.cells.y; ++y)
+            for (int x = 0; x < grid.cells.x; ++x) {
+                const glm::ivec3 cell(x, y, z);
+                const glm::dvec3 lower = glm::dvec3(cell) * glm::dvec3(grid.cellSize);
+                const glm::dvec3 upper = glm::min(lower + glm::dvec3(grid.cellSize), glm::dvec3(size));
+                const glm::dvec3 extent = upper - lower;
+                tentative += static_cast<double>(grid.maxima[index(cell, grid.cells)]) * extent.x * extent.y * extent.z;
+            }
+    grid.nullCollisions = std::max(0.0, tentative / mass - 1.0);
+}
+
 }  // namespace
 
 std::vector<float> majorantsAndDistances(const MajorantGrid& grid) {
@@ -56,17 +73,21 @@ MajorantGrid majorantGrid(const std::vector<float>& blockMaxima, const glm::ivec
                 float& cell = grid.maxima[index(global ? glm::ivec3(0) : block / edge, grid.cells)];
                 cell = std::max(cell, slack * blockMaxima[index(block, blocks)]);
             }
-    double tentative = 0.0;
-    for (int z = 0; z < grid.cells.z; ++z)
-        for (int y = 0; y < grid.cells.y; ++y)
-            for (int x = 0; x < grid.cells.x; ++x) {
-                const glm::ivec3 cell(x, y, z);
-                const glm::dvec3 lower = glm::dvec3(cell) * glm::dvec3(grid.cellSize);
-                const glm::dvec3 upper = glm::min(lower + glm::dvec3(grid.cellSize), glm::dvec3(size));
-                const glm::dvec3 extent = upper - lower;
-                tentative += static_cast<double>(grid.maxima[index(cell, grid.cells)]) * extent.x * extent.y * extent.z;
-            }
-    grid.nullCollisions = std::max(0.0, tentative / mass - 1.0);
+    countNullCollisions(grid, size, mass);
+    return grid;
+}
+
+MajorantGrid majorantGrid(const vdb::SparseVolume& volume, bool global, double mass) {
+    MajorantGrid grid;
+    grid.cells = global ? glm::ivec3(1) : volume.cells();
+    grid.cellSize = global ? glm::vec3(volume.size)
+                           : glm::vec3(static_cast<float>(volume.cellBricks * vdb::SparseVolume::brickEdge));
+    if (global)
+        grid.maxima = {*std::ranges::max_element(volume.cellMajorants)};
+    else
+        grid.maxima = volume.cellMajorants;
+    for (float& majorant : grid.maxima) majorant *= slack;
+    countNullCollisions(grid, volume.size, mass);
     return grid;
 }
 

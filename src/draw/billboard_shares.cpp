@@ -38,13 +38,18 @@ std::vector<float> billboardShares(gpu::Context& context, const cloud::Asset& cl
     spheres.reserve(count);
     for (const cloud::Collector& collector : cloud.collectors)
         spheres.emplace_back(collector.centre, billboardRadius(cloud, collector));
-    const gpu::Program<shared::BillboardMeanPush> program(context, "billboard_mean", spirv::billboard_mean_comp);
+    const gpu::Program<shared::BillboardMeanPush> program(context, "billboard_mean", spirv::billboard_mean_comp,
+                                                          {cloud.sparseConstant()});
     const gpu::Buffer input = gpu::filledBuffer(context, "billboard spheres", spheres);
     const gpu::Buffer means(context, "billboard means", count * sizeof(float), gpu::Memory::host);
     gpu::Commands commands(context);
     commands.begin();
     commands.pass("billboard means");
-    commands.dispatch(program, {{"density", cloud.density, gpu::Sampler::linear}, {"Spheres", input}, {"Means", means}},
+    commands.dispatch(program,
+                      {{"density", *cloud.density, gpu::Sampler::linear},
+                       {"bricks", cloud.brickIndex(), gpu::Sampler::nearest},
+                       {"Spheres", input},
+                       {"Means", means}},
                       shared::BillboardMeanPush{glm::mat3(glm::inverse(cloud.voxelToMetres)),
                                                 1.0F / glm::vec3(cloud.size), static_cast<std::uint32_t>(count)},
                       gpu::linearGroups(static_cast<std::uint32_t>(count), 64));

@@ -18,10 +18,12 @@ struct DrawFeatures {
     bool grey = false;    ///< the albedo of each cloud is the same for all colours
     bool many = false;    ///< more than one instance
     bool ground = false;  ///< rays of a march end at a ground
+    bool sparse = false;  ///< densities are in bricks
 
     std::vector<gpu::SpecConstant> constants() const {
-        return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun), gpu::SpecConstant::of(2, photons),
-                gpu::SpecConstant::of(3, grey), gpu::SpecConstant::of(4, many)};
+        return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun),
+                gpu::SpecConstant::of(2, photons),    gpu::SpecConstant::of(3, grey),
+                gpu::SpecConstant::of(4, many),       gpu::SpecConstant::of(15, sparse)};
     }
 };
 
@@ -36,6 +38,7 @@ struct PhaseTables {
 /// The volumes that rays go through: those of the one instance, or atlases of all.
 struct Volumes {
     const gpu::Image& density;
+    const gpu::Image& bricks;  ///< their index; any image of integers where the density is dense
     const gpu::Image& majorants;
     const gpu::Image& lightField;
     const gpu::Image& shadowVolume;
@@ -58,6 +61,7 @@ struct DrawInputs {
                 {"singleScatterH", phase.before},
                 {"singleScatterK", phase.after},
                 {"density", volumes.density, gpu::Sampler::linear},
+                {"bricks", volumes.bricks, gpu::Sampler::nearest},
                 {"lightField", volumes.lightField, gpu::Sampler::linearClamp},
                 {"shadowVolume", volumes.shadowVolume, gpu::Sampler::linearClamp},
                 {"Pixels", pixels},

@@ -55,9 +55,9 @@ LightCells::LightCells(gpu::Context& context, const cloud::Asset& asset, const c
     : asset_(&asset),
       grid_(grid),
       estimatorGrid_(estimates),
-      massProgram_(context, "light_mass", spirv::light_mass_comp),
-      countsProgram_(context, "light_counts", spirv::light_counts_comp, {gpu::SpecConstant::of(0, grid_.edge)}),
-      cellsProgram_(context, "light_cells", spirv::light_cells_comp, {gpu::SpecConstant::of(0, grid_.edge)}),
+      massProgram_(context, "light_mass", spirv::light_mass_comp, {asset.sparseConstant()}),
+      countsProgram_(context, "light_counts", spirv::light_counts_comp, {gpu::SpecConstant::of(0, grid_.edge), asset.sparseConstant()}),
+      cellsProgram_(context, "light_cells", spirv::light_cells_comp, {gpu::SpecConstant::of(0, grid_.edge), asset.sparseConstant()}),
       smoothProgram_(context, "light_smooth", spirv::light_smooth_comp),
       mass_(context, "light cell mass", grid_.cells, VK_FORMAT_R32_SFLOAT),
       counts_(context, "light counts", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
@@ -77,8 +77,11 @@ LightField::LightField(gpu::Context& context, const cloud::CellGrid& grid)
 LitCells LightCells::findLitCells(gpu::Context& context) const {
     gpu::Commands commands(context);
     commands.begin();
-    commands.dispatch(massProgram_, {{"density", asset_->density, gpu::Sampler::linear}, {"cellMass", mass_}}, push(),
-                      gpu::linearGroups(grid_.count(), 64));
+    commands.dispatch(massProgram_,
+                      {{"density", *asset_->density, gpu::Sampler::linear},
+                       {"bricks", asset_->brickIndex(), gpu::Sampler::nearest},
+                       {"cellMass", mass_}},
+                      push(), gpu::linearGroups(grid_.count(), 64));
     commands.submit();
     commands.wait();
     return litCells(grid_.cells, gpu::download<float>(context, mass_));
@@ -111,7 +114,8 @@ void LightCells::recordCounts(gpu::Commands& commands, const gpu::Image& fluence
     values.occupied = lit_.occupied;
     commands.pass("light counts");
     commands.dispatch(countsProgram_,
-                      {{"density", asset_->density, gpu::Sampler::nearest},
+                      {{"density", *asset_->density, gpu::Sampler::nearest},
+                       {"bricks", asset_->brickIndex(), gpu::Sampler::nearest},
                        {"collectorIndex", asset_->collectorIndex, gpu::Sampler::nearest},
                        {"fluences", fluences},
                        {"CollisionEstimates", estimates.counts},
@@ -133,7 +137,8 @@ void LightField::record(gpu::Commands& commands, const LightCells& of, const glm
     values.lit = static_cast<std::uint32_t>(of.lit_.numbers.size());
     commands.pass("light field");
     commands.dispatch(of.cellsProgram_,
-                      {{"density", asset.density, gpu::Sampler::nearest},
+                      {{"density", *asset.density, gpu::Sampler::nearest},
+                       {"bricks", asset.brickIndex(), gpu::Sampler::nearest},
                        {"collectorIndex", asset.collectorIndex, gpu::Sampler::nearest},
                        {"radiance", radiance},
                        {"colours", colours},

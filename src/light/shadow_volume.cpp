@@ -100,7 +100,7 @@ ShadowVolume::ShadowVolume(gpu::Context& context, const cloud::Asset& cloud, con
     : context_(context),
       cloud_(cloud),
       voxelToMetres_(voxelToMetres),
-      program_(context, "shadow_volume", spirv::shadow_volume_comp) {}
+      program_(context, "shadow_volume", spirv::shadow_volume_comp, {cloud.sparseConstant()}) {}
 
 void ShadowVolume::lay(Filled& filled, const glm::dvec3& sunTravel, double extinction, int reduction) {
     filled.grid = makeShadowGrid(cloud_.size, voxelToMetres_, sunTravel, maxTexels, reduction);
@@ -114,7 +114,10 @@ void ShadowVolume::fill(gpu::Commands& commands, Filled& filled, int rows) {
     const ShadowGrid& grid = filled.grid;
     const auto groups = [](int count) { return static_cast<std::uint32_t>((count + groupEdge - 1) / groupEdge); };
     commands.pass("shadow volume");
-    commands.dispatch(program_, {{"density", cloud_.density, gpu::Sampler::linear}, {"shadowVolume", *filled.image}},
+    commands.dispatch(program_,
+                      {{"density", *cloud_.density, gpu::Sampler::linear},
+                       {"bricks", cloud_.brickIndex(), gpu::Sampler::nearest},
+                       {"shadowVolume", *filled.image}},
                       shared::ShadowVolumePush{glm::mat3(grid.gridToVoxel), glm::vec3(grid.originVoxel),
                                                1.0F / glm::vec3(cloud_.size), grid.size, filled.step, filled.rows},
                       {groups(grid.size.x), groups(rows), 1});

@@ -21,11 +21,14 @@ Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& d
       none_(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT),
       noSquares_(draw::noSquares(context)) {
     if (features_.many) {
-        densities_.emplace(context, "density atlas", densitiesOf(world), densityFormat(world));
+        if (features_.sparse)
+            bricks_ = cloud::joinIndices(context, brickIndicesOf(world));
+        else
+            densities_.emplace(context, "density atlas", densitiesOf(world), densityFormat(world));
         majorants_.emplace(context, "majorant atlas", majorantsOf(world), VK_FORMAT_R32_SFLOAT);
         GpuWork work(context);
         work.run([&](gpu::Commands& commands) {
-            densities_->record(commands, densitiesOf(world));
+            if (densities_) densities_->record(commands, densitiesOf(world));
             majorants_->record(commands, majorantsOf(world));
         });
     }
@@ -62,14 +65,16 @@ Tile Painter::shownPart(const World& world, const ViewState::State& view) const 
 }
 
 draw::Volumes Painter::volumes(const World& world, const ViewState::State& view) const {
+    const cloud::Asset& first = *world.instances[visible_.front()].asset;
     if (features_.many)
-        return {densities_->image(), majorants_->image(), view.lightFields ? view.lightFields->image() : none_,
+        return {bricks_ ? *first.density : densities_->image(), bricks_ ? bricks_->image : first.brickIndex(),
+                majorants_->image(), view.lightFields ? view.lightFields->image() : none_,
                 world.sharedShadow ? world.sharedShadow->image() : none_};
     const std::size_t only = visible_.front();
-    const cloud::Asset& asset = *world.instances[only].asset;
     const auto& field = view.instances[only].field;
     const auto& shadow = world.light[only].shadow;
-    return {asset.density, asset.marchedCells(), field ? field->image() : none_, shadow ? shadow->image() : none_};
+    return {*first.density, first.brickIndex(), first.marchedCells(), field ? field->image() : none_,
+            shadow ? shadow->image() : none_};
 }
 
 shared::InstanceParams Painter::instanceParams(const World& world, const ViewState::State& view,
@@ -86,7 +91,8 @@ shared::InstanceParams Painter::instanceParams(const World& world, const ViewSta
         params.shadowOffset = light.shadow->textureOffset();
     }
     if (!features_.many) return params;
-    params.densityOrigin = glm::vec3(densities_->origin(place));
+    if (densities_) params.densityOrigin = glm::vec3(densities_->origin(place));
+    if (bricks_) params.firstBrick = static_cast<int>(bricks_->first[place]);
     params.cellOrigin = majorants_->origin(place);
     if (view.lightFields) {
         params.lightOrigin = glm::vec3(view.lightFields->origin(place));
@@ -108,7 +114,7 @@ shared::DrawParams Painter::drawParams(const World& world, const ViewState::Stat
     values.light = draw::lightParams(world.lights.sun);
     values.environment = world.lights.environment.params();
     if (features_.many) {
-        values.atlas.density = densities_->inverseSize();
+        if (densities_) values.atlas.density = densities_->inverseSize();
         if (view.lightFields) values.atlas.light = view.lightFields->inverseSize();
         if (world.sharedShadow) values.atlas.shadow = world.sharedShadow->inverseSize();
     }

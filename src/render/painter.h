@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cloud/atlas.h"
+#include "cloud/bricks.h"
 #include "draw/bands.h"
 #include "draw/billboards.h"
 #include "draw/drawing.h"
@@ -57,6 +58,7 @@ class Painter {
     std::optional<draw::Billboards> billboards_;
     std::optional<draw::March> march_;
     std::optional<cloud::Atlas> densities_, majorants_;  ///< where several instances are drawn
+    std::optional<cloud::JoinedIndex> bricks_;           ///< instead of densities in an atlas, where they are in bricks
     gpu::Image none_;  ///< stands for what the scene does not have: shaders never read it, but bindings must be there
     gpu::Buffer noSquares_;
 };

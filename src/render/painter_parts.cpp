@@ -14,6 +14,7 @@ draw::DrawFeatures featuresOf(const World& world) {
     features.sun = world.hasShadows();
     features.photons = world.hasPhotons();
     features.many = instances.size() > 1;
+    features.sparse = std::ranges::any_of(instances, [](const auto* i) { return i->asset->isSparse(); });
     return features;
 }
 
@@ -25,7 +26,13 @@ std::vector<const cloud::Instance*> instancesOf(const World& world) {
 
 std::vector<const gpu::Image*> densitiesOf(const World& world) {
     std::vector<const gpu::Image*> images;
-    for (const cloud::Instance* instance : instancesOf(world)) images.push_back(&instance->asset->density);
+    for (const cloud::Instance* instance : instancesOf(world)) images.push_back(instance->asset->density.get());
+    return images;
+}
+
+std::vector<const gpu::Image*> brickIndicesOf(const World& world) {
+    std::vector<const gpu::Image*> images;
+    for (const cloud::Instance* instance : instancesOf(world)) images.push_back(&instance->asset->brickIndex());
     return images;
 }
 

@@ -14,6 +14,7 @@ namespace lumulus {
 draw::DrawFeatures featuresOf(const World& world);
 std::vector<const cloud::Instance*> instancesOf(const World& world);
 std::vector<const gpu::Image*> densitiesOf(const World& world);
+std::vector<const gpu::Image*> brickIndicesOf(const World& world);
 std::vector<const gpu::Image*> majorantsOf(const World& world);
 /// A format that holds every instance's density without loss.
 VkFormat densityFormat(const World& world);

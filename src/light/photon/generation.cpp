@@ -77,7 +77,8 @@ GenerationTracer::GenerationTracer(gpu::Context& context, const cloud::Asset& cl
       invocations_(invocationsFor(context, options.photonsPerGeneration)),
       recordCapacity_(capacityFor(options.photonsPerGeneration, invocations_)),
       faceArea_(faceAreas(cloud.voxelToMetres, glm::dvec3(cloud.size))),
-      traceProgram_(context, "trace", traceSpirv(), traceConstants(medium.tables, medium.albedo, false)),
+      traceProgram_(context, "trace", traceSpirv(),
+                    traceConstants(medium.tables, medium.albedo, false, cloud.isSparse())),
       scanProgram_(context, "scan", spirv::scan_comp),
       scatterProgram_(context, "scatter", spirv::scatter_comp),
       gatherProgram_(context, "gather", spirv::gather_comp, {SpecConstant::of(0, options.bands)}),
@@ -173,7 +174,8 @@ void GenerationTracer::round(const gpu::Buffer& coefficients) {
     commands_.fill(collectorCounts_, 0);
     commands_.barrier("counts cleared");
     commands_.dispatch(traceProgram_,
-                       {{"density", cloud_.density, Sampler::nearest},
+                       {{"density", *cloud_.density, Sampler::nearest},
+                        {"bricks", cloud_.brickIndex(), Sampler::nearest},
                         {"collectorIndex", cloud_.collectorIndex, Sampler::nearest},
                         {"Params", params_},
                         {"majorants", cloud_.majorantImage},
