@@ -14,7 +14,7 @@ struct Entry {
     Stage stage;
 };
 
-constexpr std::array<Entry, 26> entries{{
+constexpr std::array<Entry, 27> entries{{
     {"trace", Stage::photons},
     {"sort", Stage::photons},
     {"gather", Stage::photons},
