@@ -15,6 +15,7 @@ struct DrawFeatures {
     bool forwardCut = false;  ///< the forward peak is cut
     bool sun = false;
     bool photons = false;
+<<<<<<< HEAD
     bool grey = false;    ///< the albedo of each cloud is the same for all colours
     bool many = false;    ///< more than one instance
     bool ground = false;  ///< rays of a march end at a ground
@@ -24,6 +25,15 @@ struct DrawFeatures {
         return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun),
                 gpu::SpecConstant::of(2, photons),    gpu::SpecConstant::of(3, grey),
                 gpu::SpecConstant::of(4, many),       gpu::SpecConstant::of(15, sparse)};
+=======
+    bool grey = false;  ///< the albedo of each cloud is the same for all colours
+    bool many = false;  ///< more than one instance
+    bool air = false;   ///< the sky is an atmosphere
+
+    std::vector<gpu::SpecConstant> constants() const {
+        return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun),  gpu::SpecConstant::of(2, photons),
+                gpu::SpecConstant::of(3, grey),       gpu::SpecConstant::of(4, many), gpu::SpecConstant::of(5, air)};
+>>>>>>> air
     }
 };
 
@@ -42,6 +52,7 @@ struct Volumes {
     const gpu::Image& majorants;
     const gpu::Image& lightField;
     const gpu::Image& shadowVolume;
+    const gpu::Image& sunColours;  ///< of an atmosphere; a texel where there is none
 };
 
 /// What every drawing pass reads and writes. `params` holds one shared::DrawParams, `instances` a
@@ -64,6 +75,7 @@ struct DrawInputs {
                 {"bricks", volumes.bricks, gpu::Sampler::nearest},
                 {"lightField", volumes.lightField, gpu::Sampler::linearClamp},
                 {"shadowVolume", volumes.shadowVolume, gpu::Sampler::linearClamp},
+                {"sunColours", volumes.sunColours, gpu::Sampler::linearClamp},
                 {"Pixels", pixels},
                 {"Blocks", squares}};
     }

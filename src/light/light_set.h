@@ -5,11 +5,21 @@
 
 #include "scene/scene.h"
 #include "sky/environment.h"
+#include "sky/sky_maps.h"
 
 namespace lumulus::light {
 
+<<<<<<< HEAD
 /// The lights of the world: sun, environment and ground, as they are before fog and clouds.
 struct LightSet {
+=======
+/// The lights of the world: sun and environment, as they are before fog and clouds.
+class LightSet {
+  public:
+    LightSet(const scene::Sun& theSun, const sky::Environment& theEnvironment)
+        : sun(theSun), environment(theEnvironment) {}
+
+>>>>>>> air
     scene::Sun sun;
     sky::Environment environment;
     std::optional<scene::Ground> ground;  ///< absent: nothing is below the clouds
@@ -20,6 +30,12 @@ struct LightSet {
     glm::dvec3 constantSky() const { return glm::dvec3(environment.params().radiance); }
     /// The sun as it reaches a point through the fog, if there is any, and the air; from below a ground, not at all.
     scene::Sun sunAt(const glm::dvec3& point, const scene::Fog& fog) const;
+    /// Light of sky and ground above a place, where the sky is an atmosphere. They are made anew where the sun has
+    /// changed.
+    const sky::SkyMaps& skyMaps(const glm::dvec3& place);
+
+  private:
+    std::optional<sky::SkyMaps> skyMaps_;
 };
 
 }  // namespace lumulus::light
