@@ -77,7 +77,7 @@ void InstanceTree::visit(const Ray& ray, double limit, Visit&& visit) const {
         double metres;
         std::uint32_t node;
     };
-    std::array<Waiting, 64> stack;  // a median split halves: 64 levels are never reached
+    std::array<Waiting, 64> stack;  // a median split: 64 levels are never reached
     std::size_t waiting = 0;
     const auto push = [&](double metres, std::uint32_t node) {
         if (metres < limit) stack[waiting++] = {metres, node};
