@@ -10,7 +10,8 @@ namespace lumulus::reference {
 
 /// What lies behind the air of an atmosphere: the sun, whose light counts as 1 at each wavelength above the air, and
 /// nothing else. It has the functions of `Environment`, at four wavelengths. All light is per sunlight above the air;
-/// `rgb` makes W·m⁻² of it at the sun's mean distance. The scene's `sun.irradiance` counts only where it is 0: no sun.
+/// `rgb` makes W·m⁻² of it: where the scene's `sun.irradiance` is not that of the sun at its mean distance, each
+/// channel is scaled by their ratio.
 class AirSky {
   public:
     explicit AirSky(const scene::Scene& scene);
@@ -29,14 +30,15 @@ class AirSky {
 
     const AirMedium& air() const { return air_; }
 
-    glm::dvec3 rgb(const Four& light) const { return air_.toRgb * light; }
+    glm::dvec3 rgb(const Four& light) const { return scale_ * (air_.toRgb * light); }
     Four albedo(const glm::dvec3& rgb) const { return air_.spread(rgb); }
-    Four emission(const glm::dvec3& rgb) const { return air_.lightOf(rgb); }
+    Four emission(const glm::dvec3& rgb) const { return air_.lightOf(rgb * unscale_); }
 
   private:
     AirMedium air_;
     SunDisc sun_;
     bool sunny_;
+    glm::dvec3 scale_{1.0}, unscale_{1.0};
 };
 
 }  // namespace lumulus::reference

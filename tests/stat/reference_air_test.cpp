@@ -24,6 +24,7 @@ scene::Scene skyScene(double elevation) {
     scene::Scene scene;
     scene.sky.model = scene::SkyModel::atmosphere;
     scene.sun.directionTo = scene::skyDirection(0.0, elevation);
+    scene.sun.irradiance = AirMedium::of(scene.sky).toRgb * Four(1.0);
     return scene;
 }
 
@@ -211,6 +212,24 @@ TEST(ReferenceAir, CloudsHaveTheirAlbedoAtEachWavelength) {
         EXPECT_NEAR(added[c], added[2] * colour[c] / colour[2], 4.0 * error);
     }
     EXPECT_GT(added[2], 20.0 * std::hypot(blue.error[2], dark.error[2]));
+}
+
+/// The scene's irradiance counts above the air and scales sky and disc by channel; a lamp keeps its colour, also where
+/// there is no sun.
+TEST(ReferenceAir, IrradianceScalesTheLightOfTheSunAlone) {
+    scene::Scene scene = skyScene(30.0);
+    const AirSky mean(scene);
+    const Four light(0.1, 0.2, 0.3, 0.4);
+    const dvec3 before = mean.rgb(light), emission(3.0, 2.0, 1.0);
+    scene.sun.irradiance *= dvec3(2.0, 0.5, 1.0);
+    const AirSky other(scene);
+    EXPECT_NEAR(glm::distance(other.rgb(light), before * dvec3(2.0, 0.5, 1.0)), 0.0, 1e-12 * before.x);
+    scene.sun.irradiance = dvec3(0.0);
+    const AirSky night(scene);
+    for (const AirSky* sky : {&mean, &other, &night})
+        EXPECT_NEAR(glm::distance(sky->rgb(sky->emission(emission)), emission), 0.0, 1e-12);
+    EXPECT_FALSE(night.sunny());
+    EXPECT_EQ(night.discRadiance(scene.sun.directionTo), Four(0.0));
 }
 
 /// The disc with a dark rim: mean 1 over the disc, 0.3/0.805 at the rim, 1/0.805 in the middle.
