@@ -30,13 +30,10 @@ struct InstanceParams {
     vec3 densityOrigin, lightOrigin, shadowOrigin;
     ivec3 cellOrigin;
     vec3 lightSize, shadowSize;
-<<<<<<< HEAD
     int firstBrick;  // of its bricks in the index of all, where the density is in bricks
-=======
     // With an atmosphere: the sun's light within the instance, and where its table begins.
     AirPlace air;
     vec2 airTexel;
->>>>>>> air
 };
 
 /// Reciprocals of the atlases' sizes [1/texels]; unused where there is one instance.
@@ -68,13 +65,9 @@ struct SharedShadowPush {
 };
 
 #ifdef __cplusplus
-<<<<<<< HEAD
 static_assert(sizeof(Occluder) == 72 && offsetof(Occluder, size) == 60);
 static_assert(sizeof(SharedShadowPush) == 32 && offsetof(SharedShadowPush, occluders) == 28);
-static_assert(sizeof(InstanceParams) == 280 && offsetof(InstanceParams, firstBrick) == 276 && offsetof(InstanceParams, shadowSize) == 264);
-=======
-static_assert(sizeof(InstanceParams) == 316 && offsetof(InstanceParams, airTexel) == 308);
->>>>>>> air
+static_assert(sizeof(InstanceParams) == 320 && offsetof(InstanceParams, airTexel) == 312);
 static_assert(sizeof(AtlasParams) == 36 && offsetof(AtlasParams, shadow) == 24);
 static_assert(sizeof(CopyVolumePush) == 24 && offsetof(CopyVolumePush, origin) == 12);
 #endif

@@ -15,25 +15,16 @@ struct DrawFeatures {
     bool forwardCut = false;  ///< the forward peak is cut
     bool sun = false;
     bool photons = false;
-<<<<<<< HEAD
     bool grey = false;    ///< the albedo of each cloud is the same for all colours
     bool many = false;    ///< more than one instance
     bool ground = false;  ///< rays of a march end at a ground
     bool sparse = false;  ///< densities are in bricks
-
-    std::vector<gpu::SpecConstant> constants() const {
-        return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun),
-                gpu::SpecConstant::of(2, photons),    gpu::SpecConstant::of(3, grey),
-                gpu::SpecConstant::of(4, many),       gpu::SpecConstant::of(15, sparse)};
-=======
-    bool grey = false;  ///< the albedo of each cloud is the same for all colours
-    bool many = false;  ///< more than one instance
-    bool air = false;   ///< the sky is an atmosphere
+    bool air = false;     ///< the sky is an atmosphere
 
     std::vector<gpu::SpecConstant> constants() const {
         return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun),  gpu::SpecConstant::of(2, photons),
-                gpu::SpecConstant::of(3, grey),       gpu::SpecConstant::of(4, many), gpu::SpecConstant::of(5, air)};
->>>>>>> air
+                gpu::SpecConstant::of(3, grey),       gpu::SpecConstant::of(4, many), gpu::SpecConstant::of(5, air),
+                gpu::SpecConstant::of(15, sparse)};
     }
 };
 

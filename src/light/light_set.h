@@ -9,17 +9,13 @@
 
 namespace lumulus::light {
 
-<<<<<<< HEAD
 /// The lights of the world: sun, environment and ground, as they are before fog and clouds.
-struct LightSet {
-=======
-/// The lights of the world: sun and environment, as they are before fog and clouds.
 class LightSet {
   public:
-    LightSet(const scene::Sun& theSun, const sky::Environment& theEnvironment)
-        : sun(theSun), environment(theEnvironment) {}
+    LightSet(const scene::Sun& theSun, const sky::Environment& theEnvironment,
+             const std::optional<scene::Ground>& theGround = {})
+        : sun(theSun), environment(theEnvironment), ground(theGround) {}
 
->>>>>>> air
     scene::Sun sun;
     sky::Environment environment;
     std::optional<scene::Ground> ground;  ///< absent: nothing is below the clouds

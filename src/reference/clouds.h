@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "reference/instance_tree.h"
 #include "reference/majorant.h"
 #include "reference/medium.h"
 #include "reference/phase.h"
@@ -26,19 +27,23 @@ struct CloudCollision {
     std::size_t cloud = 0;
 };
 
-/// A ray in the voxel coordinates of each cloud.
-using CloudRays = std::vector<VoxelRay>;
+/// A ray among the clouds.
+struct CloudRays {
+    Ray world;
+    std::vector<VoxelRay> voxels;  ///< the ray in the voxel coordinates of each cloud; empty where there are many
+};
 
-/// The clouds of a scene, all together, each with its own voxels, majorants, phase function and albedo. Where they
-/// overlap, their extinctions add up: each is tracked alone, and the nearest collision counts, so that each has its
-/// share of σt. Clouds without density or extinction are left out.
+/// The clouds of a scene, all together, each with its own place, majorants, phase function and albedo; clouds of one
+/// volume share its voxels. Where they overlap, their extinctions add up: each is tracked alone, and the nearest
+/// collision counts, so that each has its share of σt. A few clouds are asked one by one, many by a tree of their
+/// boxes. Clouds without density or extinction are left out.
 class Clouds {
   public:
     /// One volume for each cloud of the scene. Errors: InputError for a phase function that is none.
     Clouds(const std::vector<scene::Cloud>& clouds, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant);
 
     bool empty() const { return parts_.empty(); }
-    const PhaseFunction& phase(std::size_t cloud) const { return parts_[cloud].phase; }
+    const PhaseFunction& phase(std::size_t cloud) const { return phases_[parts_[cloud].phase]; }
     const glm::dvec3& albedo(std::size_t cloud) const { return parts_[cloud].albedo; }
 
     /// The phase function with the highest value forward, or null where there is no cloud.
@@ -67,12 +72,18 @@ class Clouds {
   private:
     struct Part {
         Medium medium;
-        MajorantGrid majorants;
-        PhaseFunction phase;
+        std::size_t majorants;  ///< index into `majorants_`
+        std::size_t phase;      ///< index into `phases_`
         glm::dvec3 albedo;
     };
 
+    template <typename Visit>
+    void eachMet(const Ray& ray, double limit, Visit&& visit) const;
+
     std::vector<Part> parts_;
+    std::vector<MajorantGrid> majorants_;
+    std::vector<PhaseFunction> phases_;
+    std::optional<InstanceTree> tree_;  ///< of the parts, where there are many
 };
 
 }  // namespace lumulus::reference

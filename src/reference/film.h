@@ -15,7 +15,7 @@ struct PixelSums {
     glm::dvec3 scattered{0.0};      ///< radiance except that of the sky and sun directly behind
     glm::dvec3 square{0.0};         ///< squares of the whole radiance
     glm::dvec3 passed{0.0};         ///< radiance of the sky directly behind, in Environment::unit
-    glm::dvec3 disc{0.0};           ///< transmittance to the sun's disc, times its share of the pixel
+    glm::dvec3 disc{0.0};           ///< what is seen of the sun's disc over its unit, times its share of the pixel
     double discShare = 0.0;         ///< that share
     glm::dvec3 transmittance{0.0};  ///< of cloud, fog and surfaces
     double clear = 0.0;             ///< transmittance of cloud and surfaces alone
@@ -49,7 +49,7 @@ constexpr double farDepth = 1e10;
 /// except the sky and sun directly behind), transmittance.{R,G,B} (of cloud, fog and surfaces; cloud.A is 1 less their
 /// mean), depth.Z (of cloud and surfaces; fog has no depth), from two samples on variance.{R,G,B} (of the mean of R, G,
 /// B, not of a sample), and sun.disc, the share of the pixel that the sun's disc covers, where it is in the picture.
-/// `skyUnit` is Environment::unit and `disc` the radiance of the disc. At least one sample.
+/// `skyUnit` is Environment::unit and `disc` what the sums of the disc count in. At least one sample.
 LayeredImage picture(const Film& film, const glm::dvec3& skyUnit, const glm::dvec3& disc, bool background);
 
 }  // namespace lumulus::reference

@@ -56,11 +56,11 @@ glm::dvec3 Fog::transmittance(const Ray& ray, double metres) const {
     return glm::exp(-opticalDepth(ray, metres));
 }
 
-std::optional<FogCollision> Fog::collide(const Ray& ray, double limit, const glm::dvec3& throughput,
-                                         Random& random) const {
+std::optional<HazeCollision> Fog::collide(const Ray& ray, double limit, const glm::dvec3& throughput,
+                                          Random& random) const {
     const Interval part = reach(ray);
     const int channel = channelOf(throughput, random);
-    FogCollision first{limit, media_.size()};
+    HazeCollision first{limit, media_.size()};
     for (std::size_t i = 0; i < media_.size(); ++i) {
         const double extinction = media_[i].extinction[channel];
         if (!(extinction > 0.0)) continue;
@@ -91,7 +91,7 @@ glm::dvec3 Fog::passed(const Ray& ray, double metres, const glm::dvec3& throughp
     return left * (sumOf(throughput) / sumOf(left));
 }
 
-glm::dvec3 Fog::scattered(const Ray& ray, const FogCollision& collision, const glm::dvec3& throughput) const {
+glm::dvec3 Fog::scattered(const Ray& ray, const HazeCollision& collision, const glm::dvec3& throughput) const {
     const Part& m = media_[collision.medium];
     const glm::dvec3 left = throughput * relativeTransmittance(ray, collision.metres, throughput);
     return left * m.medium.scattering * (sumOf(throughput) / sumOf(left * m.extinction));

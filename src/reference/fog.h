@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "reference/haze_collision.h"
 #include "reference/medium.h"
 #include "reference/phase.h"
 #include "reference/random.h"
@@ -12,12 +13,6 @@
 #include "view/camera.h"
 
 namespace lumulus::reference {
-
-/// A collision with a particle of the fog.
-struct FogCollision {
-    double metres = 0.0;
-    std::size_t medium = 0;
-};
 
 /// The fog of a scene: all media together, up to `sky_distance` from the eye. Free paths are exact: the first collision
 /// of each medium is found by the inverse of its integral, and the nearest one counts.
@@ -35,14 +30,14 @@ class Fog {
     glm::dvec3 transmittance(const Ray& ray, double metres) const;
 
     /// The first collision of light of this throughput before `limit` metres, if there is one.
-    std::optional<FogCollision> collide(const Ray& ray, double limit, const glm::dvec3& throughput,
-                                        Random& random) const;
+    std::optional<HazeCollision> collide(const Ray& ray, double limit, const glm::dvec3& throughput,
+                                         Random& random) const;
 
     /// The throughput of a path that reached `metres` without a collision with fog, as `collide` has drawn it.
     glm::dvec3 passed(const Ray& ray, double metres, const glm::dvec3& throughput) const;
 
     /// The throughput after the collision, absorption included.
-    glm::dvec3 scattered(const Ray& ray, const FogCollision& collision, const glm::dvec3& throughput) const;
+    glm::dvec3 scattered(const Ray& ray, const HazeCollision& collision, const glm::dvec3& throughput) const;
 
     /// Estimates the radiance that the fog emits towards the ray's origin, W·m⁻²·sr⁻¹. `metres` is the end of a path
     /// that `collide` drew, or a nearer place where something stopped it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace lumulus::reference {
 namespace {
@@ -60,13 +61,7 @@ void eachPiece(const Medium& medium, const VoxelRay& ray, Visit&& visit) {
 
 }  // namespace
 
-Medium::Medium(const vdb::PlacedVolume& cloud, double extinction)
-    : size_(cloud.volume->size),
-      extinction_(extinction),
-      maximumDensity_(0.0),
-      toVoxel_(glm::inverse(cloud.toWorld.linear)),
-      translation_(cloud.toWorld.translation) {
-    const vdb::Volume& volume = *cloud.volume;
+DensityField::DensityField(const vdb::Volume& volume) : size_(volume.size) {
     const std::size_t bricksX = bricksAlong(size_.x, brick.x), bricksY = bricksAlong(size_.y, brick.y);
     offsetX_ = offsetsOf(size_.x, brick.x, brickVoxels, 1);
     offsetY_ = offsetsOf(size_.y, brick.y, brickVoxels * bricksX, 4);
@@ -83,12 +78,12 @@ Medium::Medium(const vdb::PlacedVolume& cloud, double extinction)
     }
 }
 
-std::size_t Medium::indexOf(int x, int y, int z) const {
+std::size_t DensityField::indexOf(int x, int y, int z) const {
     return offsetX_[static_cast<std::size_t>(x + 1)] + offsetY_[static_cast<std::size_t>(y + 1)] +
            offsetZ_[static_cast<std::size_t>(z + 1)];
 }
 
-double Medium::maximumWithin(const glm::ivec3& low, const glm::ivec3& high) const {
+double DensityField::maximumWithin(const glm::ivec3& low, const glm::ivec3& high) const {
     // a point between two voxel centres takes from both: the box reaches half a voxel further
     const glm::ivec3 first = glm::max(low - 1, glm::ivec3(0));
     const glm::ivec3 last = glm::min(high, size_ - 1);
@@ -101,15 +96,32 @@ double Medium::maximumWithin(const glm::ivec3& low, const glm::ivec3& high) cons
     return result;
 }
 
+Medium::Medium(std::shared_ptr<const DensityField> field, const vdb::Affine& toWorld, double extinction)
+    : field_(std::move(field)),
+      extinction_(extinction),
+      toWorld_(toWorld.linear),
+      toVoxel_(glm::inverse(toWorld.linear)),
+      translation_(toWorld.translation) {}
+
+Box Medium::box() const {
+    Box box;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 share(corner & 1, corner >> 1 & 1, corner >> 2);
+        box.include(translation_ + toWorld_ * (share * glm::dvec3(size())));
+    }
+    return box;
+}
+
 std::optional<Interval> Medium::clip(const VoxelRay& ray) const {
+    const glm::ivec3& size = field_->size();
     Interval interval{0.0, std::numeric_limits<double>::infinity()};
     for (int axis = 0; axis < 3; ++axis) {
         if (ray.step[axis] == 0.0) {
-            if (ray.origin[axis] < 0.0 || ray.origin[axis] > size_[axis]) return std::nullopt;
+            if (ray.origin[axis] < 0.0 || ray.origin[axis] > size[axis]) return std::nullopt;
             continue;
         }
         const double a = (0.0 - ray.origin[axis]) / ray.step[axis];
-        const double b = (size_[axis] - ray.origin[axis]) / ray.step[axis];
+        const double b = (size[axis] - ray.origin[axis]) / ray.step[axis];
         interval.begin = std::max(interval.begin, std::min(a, b));
         interval.end = std::min(interval.end, std::max(a, b));
     }

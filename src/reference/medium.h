@@ -2,10 +2,12 @@
 
 #include <glm/glm.hpp>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "reference/instance_tree.h"
 #include "vdb/placed_volume.h"
 #include "view/camera.h"
 
@@ -27,15 +29,13 @@ struct Interval {
 
 /// The density field of the reference: the floats of the voxels, trilinear between voxel centres, zero outside of the
 /// box. Voxel coordinates are those of vdb::Volume.
-class Medium {
+class DensityField {
   public:
-    /// `extinction` [1/m] at density 1.
-    Medium(const vdb::PlacedVolume& cloud, double extinction);
+    explicit DensityField(const vdb::Volume& volume);
 
     const glm::ivec3& size() const { return size_; }
     /// Largest density of a voxel.
     double maximumDensity() const { return maximumDensity_; }
-    double extinctionScale() const { return extinction_; }
 
     /// Largest density of the voxels that the interpolated field touches in the box [low, high) of voxel coordinates.
     double maximumWithin(const glm::ivec3& low, const glm::ivec3& high) const;
@@ -43,29 +43,53 @@ class Medium {
     /// Density at voxel coordinates within [0, size].
     double density(const glm::dvec3& p) const;
 
-    glm::dvec3 toVoxel(const glm::dvec3& world) const { return toVoxel_ * (world - translation_); }
-    /// A vector of the world in voxel coordinates.
-    glm::dvec3 stepOf(const glm::dvec3& direction) const { return toVoxel_ * direction; }
-    VoxelRay toVoxel(const Ray& ray) const { return {toVoxel(ray.origin), stepOf(ray.direction)}; }
-
-    /// The part of the ray within the box, from metre 0 on; absent if the ray misses the box.
-    std::optional<Interval> clip(const VoxelRay& ray) const;
-
   private:
     std::size_t indexOf(int x, int y, int z) const;
 
     glm::ivec3 size_;
-    double extinction_;
-    double maximumDensity_;
-    glm::dmat3 toVoxel_;
-    glm::dvec3 translation_;
+    double maximumDensity_ = 0.0;
     // Voxels in bricks of 4×2×2, a cache line each, with a ring of zeros around the volume; offsets by coordinate add
     // up to the index.
     std::vector<float> voxels_;
     std::vector<std::size_t> offsetX_, offsetY_, offsetZ_;
 };
 
-inline double Medium::density(const glm::dvec3& p) const {
+/// A density field at its place in the world, with its extinction. Media may share a field.
+class Medium {
+  public:
+    /// `extinction` [1/m] at density 1.
+    Medium(const vdb::PlacedVolume& cloud, double extinction)
+        : Medium(std::make_shared<const DensityField>(*cloud.volume), cloud.toWorld, extinction) {}
+    Medium(std::shared_ptr<const DensityField> field, const vdb::Affine& toWorld, double extinction);
+
+    const glm::ivec3& size() const { return field_->size(); }
+    double maximumDensity() const { return field_->maximumDensity(); }
+    double extinctionScale() const { return extinction_; }
+    double maximumWithin(const glm::ivec3& low, const glm::ivec3& high) const {
+        return field_->maximumWithin(low, high);
+    }
+    double density(const glm::dvec3& p) const { return field_->density(p); }
+
+    glm::dvec3 toVoxel(const glm::dvec3& world) const { return toVoxel_ * (world - translation_); }
+    /// A vector of the world in voxel coordinates.
+    glm::dvec3 stepOf(const glm::dvec3& direction) const { return toVoxel_ * direction; }
+    VoxelRay toVoxel(const Ray& ray) const { return {toVoxel(ray.origin), stepOf(ray.direction)}; }
+
+    /// The box in the world that holds the box of the voxels.
+    Box box() const;
+
+    /// The part of the ray within the box, from metre 0 on; absent if the ray misses the box.
+    std::optional<Interval> clip(const VoxelRay& ray) const;
+
+  private:
+    std::shared_ptr<const DensityField> field_;
+    double extinction_;
+    glm::dmat3 toWorld_;
+    glm::dmat3 toVoxel_;
+    glm::dvec3 translation_;
+};
+
+inline double DensityField::density(const glm::dvec3& p) const {
     // coordinates of the ring, which begins a voxel and a half before the first centre
     const glm::dvec3 q = p + 0.5;
     const auto x = static_cast<std::size_t>(q.x), y = static_cast<std::size_t>(q.y), z = static_cast<std::size_t>(q.z);

@@ -90,6 +90,16 @@ PhaseFunction::PhaseFunction(const scene::Phase& phase) : model_(phase.model), g
     }
 }
 
+PhaseFunction PhaseFunction::cornetteShanks(double g) {
+    PhaseFunction phase{scene::Phase{}};
+    // Draine's function with α = 1
+    phase.model_ = scene::PhaseModel::droplet;
+    phase.draineG_ = g;
+    phase.draineAlpha_ = 1.0;
+    phase.draineShare_ = 1.0;
+    return phase;
+}
+
 double PhaseFunction::evaluate(double oneMinusCos) const {
     switch (model_) {
         case scene::PhaseModel::henyeyGreenstein:

@@ -20,6 +20,9 @@ class PhaseFunction {
     /// Errors: InputError for parameters without a phase function.
     explicit PhaseFunction(const scene::Phase& phase);
 
+    /// Aerosol (Cornette and Shanks 1992); |g| below 1.
+    static PhaseFunction cornetteShanks(double g);
+
     /// Value of p [1/sr].
     double evaluate(double oneMinusCos) const;
 

@@ -51,6 +51,10 @@ void addSurface(Fingerprint& print, const scene::Surface& surface) {
     }
 }
 
+void addAir(Fingerprint& print, const scene::Sky& sky) {
+    print.add(sky.model).add(static_cast<int>(sky.hillaire)).add(sky.aerosolDepth).add(sky.angstrom).add(sky.ozone);
+}
+
 std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes,
                             const Camera& camera, Majorant majorant, std::uint64_t seed) {
     Fingerprint print;
@@ -62,6 +66,8 @@ std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::Pl
     for (std::size_t i = 0; i < volumes.size(); ++i) addCloud(print, scene.clouds[i], volumes[i]);
     if (!scene.fog.media.empty()) addFog(print, scene.fog);
     for (const scene::Surface& surface : surfacesOf(scene)) addSurface(print, surface);
+    if (scene.sun.limbDarkening) print.add(1);
+    if (scene.sky.model == scene::SkyModel::atmosphere) addAir(print, scene.sky);
     if (!scene.image.background) print.add(scene.image.background);
     return print.value();
 }
@@ -72,10 +78,10 @@ Renderer::Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolum
                    std::uint64_t seed)
     : camera_(makeCamera(scene.camera, scene.image, boundsOf(volumes))),
       tracer_(scene, volumes, majorant, camera_.position),
-      discRadiance_(tracer_.environment().discRadiance(camera_.position, scene.sun.directionTo)),
+      skyUnit_(tracer_.skyUnit()),
+      discUnit_(tracer_.discUnit()),
       background_(scene.image.background),
-      discCover_(camera_, tracer_.environment().sunDirection(),
-                 tracer_.environment().sunny() ? tracer_.environment().sunRadius() : 0.0),
+      discCover_(camera_, tracer_.sun().direction(), tracer_.sunny() ? tracer_.sun().radius() : 0.0),
       seed_(seed),
       fingerprint_(fingerprintOf(scene, volumes, camera_, majorant, seed)) {
     film_.width = scene.image.width;
@@ -108,19 +114,18 @@ Renderer::Sample Renderer::sample(int x, int y) const {
     }
     if (const DiscCover::Pixel* covered = discCover_.find(x, y)) {
         const glm::dvec2 place = covered->sample(random);
-        const glm::dvec3 through = tracer_.integrate(camera_.ray(place.x, place.y)).transmittance;
-        if (background_) result.sums.disc = covered->share * through;
+        const glm::dvec3 seen = tracer_.discSeen(camera_.ray(place.x, place.y));
+        if (background_) result.sums.disc = covered->share * seen;
         result.sums.discShare = covered->share;
     }
-    const glm::dvec3 radiance =
-        result.sums.scattered + result.sums.passed * tracer_.environment().unit() + result.sums.disc * discRadiance_;
+    const glm::dvec3 radiance = result.sums.scattered + result.sums.passed * skyUnit_ + result.sums.disc * discUnit_;
     result.sums.square = radiance * radiance;
     return result;
 }
 
 bool Renderer::pass(const Continue& goOn) {
     // bands of about this many paths take less than a second, in dense fog some seconds, until an interrupt is noticed
-    const int bandPaths = tracer_.hasFog() ? 1 << 12 : 1 << 15;
+    const int bandPaths = tracer_.hazy() ? 1 << 12 : 1 << 15;
     const int rows = std::clamp(bandPaths / film_.width, 1, film_.height);
     for (int begin = 0; begin < film_.height; begin += rows) {
         const int end = std::min(begin + rows, film_.height);
@@ -147,7 +152,7 @@ bool Renderer::pass(const Continue& goOn) {
 }
 
 LayeredImage Renderer::picture() const {
-    LayeredImage image = reference::picture(film_, tracer_.environment().unit(), discRadiance_, background_);
+    LayeredImage image = reference::picture(film_, skyUnit_, discUnit_, background_);
     std::vector<float>& front = image.layer("depth.front");
     tbb::parallel_for(0, film_.width * film_.height, [&](int pixel) {
         const Ray middle = camera_.ray(pixel % film_.width + 0.5, pixel / film_.width + 0.5);

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <functional>
 
+#include "reference/any_tracer.h"
 #include "reference/disc_cover.h"
 #include "reference/film.h"
-#include "reference/tracer.h"
 #include "view/camera.h"
 
 namespace lumulus::reference {
@@ -48,9 +48,9 @@ class Renderer {
     Sample sample(int x, int y) const;
 
     Camera camera_;
-    PathTracer tracer_;
-    glm::dvec3 discRadiance_;
-    bool background_;  ///< whether samples hold the sky and the sun's disc directly behind
+    AnyTracer tracer_;
+    glm::dvec3 skyUnit_, discUnit_;  ///< AnyTracer's
+    bool background_;                ///< whether samples hold the sky and the sun's disc directly behind
     DiscCover discCover_;
     std::uint64_t seed_;
     std::uint64_t fingerprint_;

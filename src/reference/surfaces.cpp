@@ -29,7 +29,9 @@ double metresToSphere(const scene::Surface& sphere, const Ray& ray, bool leaves)
     if (!(distance < sphere.radius)) return never;
     const double half = std::sqrt((sphere.radius - distance) * (sphere.radius + distance));
     if (closest - half > 0.0) return closest - half;
-    return closest + half > 0.0 ? closest + half : never;
+    // a point that should lie on the sphere may lie just within it
+    const double rounding = closest < 0.0 ? 1e-12 * sphere.radius : 0.0;
+    return closest + half > rounding ? closest + half : never;
 }
 
 double metresTo(const scene::Surface& surface, const Ray& ray, bool leaves) {

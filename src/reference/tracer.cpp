@@ -5,7 +5,9 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtx/component_wise.hpp>
 #include <limits>
+#include <type_traits>
 
+#include "base/error.h"
 #include "reference/ground.h"
 
 namespace lumulus::reference {
@@ -22,8 +24,31 @@ constexpr int fogCollisionLimit = 100'000;
 /// rays carry most of the light of a forward lobe. Values between 0.02 and 0.1 are best in the Disney cloud.
 constexpr double shadowThreshold = 0.05;
 
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+double sumOf(const glm::dvec3& v) {
+    return v.x + v.y + v.z;
+}
+
+double sumOf(const Four& v) {
+    return v.x + v.y + v.z + v.w;
+}
+
+Fog hazeOf(const scene::Scene& scene, const Environment&, const glm::dvec3& eye) {
+    return {scene.fog, eye};
+}
+
+Air hazeOf(const scene::Scene& scene, const AirSky& sky, const glm::dvec3&) {
+    if (!scene.fog.media.empty()) {
+        throw InputError("the reference has no fog in an atmosphere", "fog.media",
+                         "leave out the fog, or write sky.model = \"constant\"");
+    }
+    return {sky.air(), groundOf(scene)->height};
+}
+
 /// Russian roulette with this chance of going on; false where the path ends.
-bool survives(glm::dvec3& throughput, double chance, Random& random) {
+template <typename Light>
+bool survives(Light& throughput, double chance, Random& random) {
     if (chance < 1.0) {
         if (random.uniform() >= chance) return false;
         throughput /= chance;
@@ -33,37 +58,54 @@ bool survives(glm::dvec3& throughput, double chance, Random& random) {
 
 }  // namespace
 
-PathTracer::PathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
-                       const glm::dvec3& eye)
-    : environment_(scene.sky, scene.sun),
+template <typename Light>
+BasicPathTracer<Light>::BasicPathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes,
+                                        Majorant majorant, const glm::dvec3& eye)
+    : environment_(scene),
       clouds_(scene.clouds, volumes, majorant),
-      fog_(scene.fog, eye),
+      haze_(hazeOf(scene, environment_, eye)),
       surfaces_(surfacesOf(scene)),
       lamps_(scene.surfaces),
       inscattering_(scene.fog.inscattering) {
     const PhaseFunction* phase = clouds_.narrowestPhase();
     if (environment_.sunny() && phase != nullptr)
-        aureole_ = Aureole::of(*phase, environment_.sunDirection(), environment_.sunRadius());
+        aureole_ = Aureole::of(*phase, environment_.sun().direction(), environment_.sun().radius());
 }
 
-PathTracer::Event PathTracer::nextEvent(const Vertex& vertex, const glm::dvec3& throughput, Random& random) const {
+template <typename Light>
+auto BasicPathTracer<Light>::nextEvent(const Vertex& vertex, const Light& throughput, Random& random) const -> Event {
     Event event;
     if (!surfaces_.empty()) {
         const auto hit = surfaces_.nearest(vertex.ray, vertex.surface());
         if (hit) event = {Place::surface, hit->metres, hit->surface};
     }
-    if (!fog_.empty()) {
-        if (const auto collision = fog_.collide(vertex.ray, event.metres, throughput, random)) {
-            event = {Place::fog, collision->metres, collision->medium};
-        }
-    }
-    if (const auto collision = clouds_.collide(vertex.voxels, event.metres, random)) {
-        event = {Place::cloud, collision->metres, collision->cloud};
+    // what costs more comes later, when the way is shorter
+    if constexpr (std::is_same_v<Haze, Fog>) {
+        meetHaze(event, vertex, throughput, random);
+        meetClouds(event, vertex, random);
+    } else {
+        meetClouds(event, vertex, random);
+        meetHaze(event, vertex, throughput, random);
     }
     return event;
 }
 
-void PathTracer::arrive(Vertex& vertex, const Event& event) const {
+template <typename Light>
+void BasicPathTracer<Light>::meetHaze(Event& event, const Vertex& vertex, const Light& throughput,
+                                      Random& random) const {
+    if (haze_.empty()) return;
+    const auto collision = haze_.collide(vertex.ray, event.metres, throughput, random);
+    if (collision) event = {Place::haze, collision->metres, collision->medium};
+}
+
+template <typename Light>
+void BasicPathTracer<Light>::meetClouds(Event& event, const Vertex& vertex, Random& random) const {
+    const auto collision = clouds_.collide(vertex.voxels, event.metres, random);
+    if (collision) event = {Place::cloud, collision->metres, collision->cloud};
+}
+
+template <typename Light>
+void BasicPathTracer<Light>::arrive(Vertex& vertex, const Event& event) const {
     vertex.place = event.place;
     vertex.index = event.index;
     vertex.arrived = vertex.ray.direction;
@@ -74,44 +116,49 @@ void PathTracer::arrive(Vertex& vertex, const Event& event) const {
     }
 }
 
-/// Follows the path through the fog to the event: adds emission and updates the throughput (after a collision with fog,
-/// to the scattered part). Returns the share of the light that a collision leaves, 1 without a collision.
-double PathTracer::crossFog(const Vertex& vertex, const Event& event, glm::dvec3& radiance, glm::dvec3& throughput,
-                            Random& random) const {
-    radiance += fog_.emitted(vertex.ray, event.metres, throughput, random);
-    if (event.place != Place::fog) {
-        throughput = fog_.passed(vertex.ray, event.metres, throughput);
+/// Follows the path through the haze to the event: adds emission and updates the throughput (after a collision with
+/// haze, to the scattered part). Returns the share of the light that a collision leaves, 1 without a collision.
+template <typename Light>
+double BasicPathTracer<Light>::crossHaze(const Vertex& vertex, const Event& event, Light& radiance, Light& throughput,
+                                         Random& random) const {
+    radiance += haze_.emitted(vertex.ray, event.metres, throughput, random);
+    if (event.place != Place::haze) {
+        throughput = haze_.passed(vertex.ray, event.metres, throughput);
         return 1.0;
     }
-    const glm::dvec3 scattered = fog_.scattered(vertex.ray, {event.metres, event.index}, throughput);
-    const double share = (scattered.x + scattered.y + scattered.z) / (throughput.x + throughput.y + throughput.z);
+    const Light scattered = haze_.scattered(vertex.ray, {event.metres, event.index}, throughput);
+    const double share = sumOf(scattered) / sumOf(throughput);
     throughput = scattered;
     return share;
 }
 
 /// Updates the throughput after a collision with cloud or surface. Returns the remaining share of the brightest
 /// channel.
-double PathTracer::scatter(const Vertex& vertex, glm::dvec3& throughput) const {
+template <typename Light>
+double BasicPathTracer<Light>::scatter(const Vertex& vertex, Light& throughput) const {
     const bool atSurface = vertex.place == Place::surface;
-    const glm::dvec3& albedo = atSurface ? surfaces_[vertex.index].albedo : clouds_.albedo(vertex.index);
+    const Light albedo = environment_.albedo(atSurface ? surfaces_[vertex.index].albedo : clouds_.albedo(vertex.index));
     throughput *= albedo;
     return glm::compMax(albedo);
 }
 
-/// Of the cloud or the fog that the path has met.
-const PhaseFunction& PathTracer::phaseAt(const Vertex& vertex) const {
-    return vertex.place == Place::fog ? fog_.phase(vertex.index) : clouds_.phase(vertex.index);
+/// Of the cloud or the haze that the path has met.
+template <typename Light>
+const PhaseFunction& BasicPathTracer<Light>::phaseAt(const Vertex& vertex) const {
+    return vertex.place == Place::haze ? haze_.phase(vertex.index) : clouds_.phase(vertex.index);
 }
 
 /// Draws the next direction of the path from the phase function, or from the cosine of a diffuse surface.
-glm::dvec3 PathTracer::turn(const Vertex& vertex, Random& random) const {
+template <typename Light>
+glm::dvec3 BasicPathTracer<Light>::turn(const Vertex& vertex, Random& random) const {
     if (vertex.place == Place::surface) return turned(vertex.normal, 1.0 - std::sqrt(random.uniform()), random);
     return turned(vertex.arrived, phaseAt(vertex).sample(random), random);
 }
 
 /// Share of light from `toLight` that goes on along the path, 1/sr: the phase function, or the cosine over π. It is
 /// also the density with which the function above draws that direction.
-double PathTracer::response(const Vertex& vertex, const glm::dvec3& toLight) const {
+template <typename Light>
+double BasicPathTracer<Light>::response(const Vertex& vertex, const glm::dvec3& toLight) const {
     if (vertex.place == Place::surface) {
         return std::max(0.0, glm::dot(vertex.normal, toLight)) * glm::one_over_pi<double>();
     }
@@ -119,14 +166,16 @@ double PathTracer::response(const Vertex& vertex, const glm::dvec3& toLight) con
 }
 
 /// Density of paths that leave the vertex in a direction, 1/sr: by chance, and as branches to the aureole.
-double PathTracer::density(const Vertex& vertex, const glm::dvec3& direction) const {
+template <typename Light>
+double BasicPathTracer<Light>::density(const Vertex& vertex, const glm::dvec3& direction) const {
     return response(vertex, direction) + (aureole_ ? aureole_->density(direction) : 0.0);
 }
 
 /// Continues the path in a direction that was drawn by chance or as a branch. Both kinds share the scattered light by
 /// the balance heuristic, so that weights never grow. Where more paths go than light is expected from, Russian roulette
 /// thins them out to weights of one over the importance. Returns false if the path ends.
-bool PathTracer::head(Path& path, const glm::dvec3& direction, Random& random) const {
+template <typename Light>
+bool BasicPathTracer<Light>::head(Path& path, const glm::dvec3& direction, Random& random) const {
     Vertex& vertex = path.vertex;
     if (aureole_) {
         path.throughput *= response(vertex, direction) / density(vertex, direction);
@@ -139,112 +188,129 @@ bool PathTracer::head(Path& path, const glm::dvec3& direction, Random& random) c
 }
 
 /// Sends a branch of the path to the aureole after a scattering event.
-void PathTracer::branch(const Path& path, std::vector<Path>& branches, Random& random) const {
+template <typename Light>
+void BasicPathTracer<Light>::branch(const Path& path, std::vector<Path>& branches, Random& random) const {
     Path other = path;
     if (head(other, aureole_->sample(random), random)) branches.push_back(std::move(other));
 }
 
 /// Emission of a surface that a path from `vertex` meets by chance, without the share that `lampLight` covers.
-glm::dvec3 PathTracer::emissionAt(const Vertex& vertex, const Event& event) const {
-    const glm::dvec3& emission = surfaces_[event.index].emission;
+template <typename Light>
+Light BasicPathTracer<Light>::emissionAt(const Vertex& vertex, const Event& event) const {
+    const Light emission = environment_.emission(surfaces_[event.index].emission);
     if (lamps_.empty() || vertex.place == Place::eye) return emission;
     const double chance = density(vertex, vertex.ray.direction);
     const double aimed = lamps_.density(vertex.ray.origin, event.index);
-    return chance > 0.0 ? emission * (chance / (chance + aimed)) : glm::dvec3(0.0);
+    return chance > 0.0 ? emission * (chance / (chance + aimed)) : Light(0.0);
 }
 
 /// Light of a chosen lamp that reaches the vertex and goes on along the path.
-glm::dvec3 PathTracer::lampLight(const Vertex& vertex, Random& random) const {
+template <typename Light>
+Light BasicPathTracer<Light>::lampLight(const Vertex& vertex, Random& random) const {
     const glm::dvec3& point = vertex.ray.origin;
     const std::optional<LampSample> lamp = lamps_.sample(point, random);
-    if (!lamp) return glm::dvec3(0.0);
+    if (!lamp) return Light(0.0);
     const double chance = response(vertex, lamp->direction);
-    if (!(chance > 0.0)) return glm::dvec3(0.0);
+    if (!(chance > 0.0)) return Light(0.0);
     const Ray shadow{point, lamp->direction};
     const std::optional<SurfaceHit> hit = surfaces_.nearest(shadow, vertex.surface());
-    if (!hit || hit->surface != lamp->surface) return glm::dvec3(0.0);
+    if (!hit || hit->surface != lamp->surface) return Light(0.0);
     double weight = chance / (density(vertex, lamp->direction) + lamp->density);
     weight = clouds_.passed(vertex.voxels, lamp->direction, random, weight, 0.0, hit->metres);
-    glm::dvec3 light = weight * surfaces_[lamp->surface].emission;
-    if (!fog_.empty()) light *= fog_.transmittance(shadow, hit->metres);
+    Light light = weight * environment_.emission(surfaces_[lamp->surface].emission);
+    if (!haze_.empty()) light *= haze_.transmittance(shadow, hit->metres);
     return light;
 }
 
 /// Light of the sun's disc for a path from `vertex` that escapes into it by chance, without the share that
 /// `sunTransmission` covers.
-glm::dvec3 PathTracer::sunByChance(const Vertex& vertex) const {
-    const glm::dvec3 disc = environment_.discRadiance(vertex.ray.origin, vertex.ray.direction);
+template <typename Light>
+Light BasicPathTracer<Light>::sunByChance(const Vertex& vertex) const {
+    const Light disc = environment_.discRadiance(vertex.ray.direction);
     if (glm::compMax(disc) == 0.0) return disc;
-    const double expected = density(vertex, vertex.ray.direction) * glm::two_pi<double>() * environment_.sunCone();
+    const double expected = density(vertex, vertex.ray.direction) * glm::two_pi<double>() * environment_.sun().cone();
     return disc * (expected / (1.0 + expected));
 }
 
 /// Share of the sun's fluence that goes on along the path, 1/sr, by a shadow ray to a point of the disc, without the
 /// share that `sunByChance` covers. No path meets a point-like sun by chance, so the shadow ray has all of its light.
-glm::dvec3 PathTracer::sunTransmission(const Vertex& vertex, double strength, Random& random) const {
-    const glm::dvec3 toSun = environment_.sampleSun(random);
-    const double expected = density(vertex, toSun) * glm::two_pi<double>() * environment_.sunCone();
-    double weight = response(vertex, toSun) / (1.0 + expected);
+template <typename Light>
+Light BasicPathTracer<Light>::sunTransmission(const Vertex& vertex, double strength, Random& random) const {
+    const SunDisc& sun = environment_.sun();
+    const glm::dvec3 toSun = sun.sample(random);
+    const double expected = density(vertex, toSun) * glm::two_pi<double>() * sun.cone();
+    double weight = response(vertex, toSun) * sun.limb(toSun) / (1.0 + expected);
     const double threshold = shadowThreshold / strength;
     if (weight < threshold) {
-        if (random.uniform() * threshold >= weight) return glm::dvec3(0.0);
+        if (random.uniform() * threshold >= weight) return Light(0.0);
         weight = threshold;
     }
     const Ray shadow{vertex.ray.origin, toSun};
-    if (surfaces_.block(shadow, vertex.surface())) return glm::dvec3(0.0);
+    if (surfaces_.block(shadow, vertex.surface())) return Light(0.0);
     weight = clouds_.passed(vertex.voxels, toSun, random, weight, threshold);
-    const glm::dvec3 light = weight * environment_.sunTransmittance(vertex.ray.origin);
-    if (fog_.empty()) return light;
-    return light * fog_.transmittance(shadow, std::numeric_limits<double>::infinity());
+    if (haze_.empty() || weight == 0.0) return Light(weight);
+    return weight * haze_.transmittance(shadow, endless);
 }
 
-/// Follows the path to its next event, adds the light there to the sample, and continues. Returns false if the path
+/// Follows the path to its next event, adds the light there to what it found, and continues. Returns false if the path
 /// ends.
-bool PathTracer::step(Path& path, PathSample& sample, std::vector<Path>& branches, Random& random) const {
+template <typename Light>
+bool BasicPathTracer<Light>::step(Path& path, Found& found, std::vector<Path>& branches, Random& random) const {
     auto& [vertex, throughput] = path;
     const Event event = nextEvent(vertex, throughput, random);
-    double share = fog_.empty() ? 1.0 : crossFog(vertex, event, sample.radiance, throughput, random);
+    double share = haze_.empty() ? 1.0 : crossHaze(vertex, event, found.radiance, throughput, random);
     if (event.place == Place::sky) {
         if (vertex.place == Place::eye) {
-            sample.passed = throughput * environment_.relativeRadiance(vertex.ray.direction);
+            found.passed = throughput * environment_.relativeRadiance(vertex.ray.direction);
         } else if (isLit(vertex)) {
-            sample.radiance += throughput * (environment_.radiance(vertex.ray.direction) + sunByChance(vertex));
+            found.radiance += throughput * (environment_.radiance(vertex.ray.direction) + sunByChance(vertex));
         }
         return false;
     }
-    if (event.place == Place::surface) sample.radiance += throughput * emissionAt(vertex, event);
+    if (vertex.place == Place::eye) found.haze = event.place == Place::haze;
+    if (event.place == Place::surface) found.radiance += throughput * emissionAt(vertex, event);
     arrive(vertex, event);
-    if (event.place != Place::fog) share = scatter(vertex, throughput);
+    if (event.place != Place::haze) share = scatter(vertex, throughput);
     if (!(glm::compMax(throughput) > 0.0)) return false;
     if (environment_.sunny() && isLit(vertex)) {
-        sample.radiance +=
+        found.radiance +=
             throughput * environment_.sunFluence() * sunTransmission(vertex, glm::compMax(throughput) / share, random);
     }
-    if (!lamps_.empty()) sample.radiance += throughput * lampLight(vertex, random);
+    if (!lamps_.empty()) found.radiance += throughput * lampLight(vertex, random);
     if (aureole_) branch(path, branches, random);
     // absorption ends the path only after the light of the collision itself was added
     return survives(throughput, share, random) && head(path, turn(vertex, random), random);
 }
 
-PathSample PathTracer::trace(const Ray& ray, Random& random) const {
-    PathSample sample;
+template <typename Light>
+PathSample BasicPathTracer<Light>::sampleOf(const Found& found) const {
+    const glm::dvec3 radiance = environment_.rgb(found.radiance);
+    if (std::is_same_v<Haze, Air> && found.haze) return {glm::dvec3(0.0), radiance};
+    return {radiance, environment_.rgb(found.passed)};
+}
+
+template <typename Light>
+PathSample BasicPathTracer<Light>::trace(const Ray& ray, Random& random) const {
+    Found found;
     Path path;
     path.vertex.ray = ray;
     path.vertex.voxels = clouds_.raysOf(ray);
     std::vector<Path> branches;
-    const int limit = fog_.empty() ? collisionLimit : fogCollisionLimit;
+    const bool fogged = std::is_same_v<Haze, Fog> && !haze_.empty();
+    const int limit = fogged ? fogCollisionLimit : collisionLimit;
     for (int collisions = 0; collisions < limit; ++collisions) {
-        if (step(path, sample, branches, random)) continue;
-        if (branches.empty()) return sample;
+        if (step(path, found, branches, random)) continue;
+        if (branches.empty()) return sampleOf(found);
         path = std::move(branches.back());
         branches.pop_back();
     }
+    PathSample sample = sampleOf(found);
     sample.lost = true;
     return sample;
 }
 
-RayIntegrals PathTracer::integrate(const Ray& ray) const {
-    constexpr double endless = std::numeric_limits<double>::infinity();
+template <typename Light>
+RayIntegrals BasicPathTracer<Light>::integrate(const Ray& ray) const {
     RayIntegrals result;
     const auto hit = surfaces_.nearest(ray, Surfaces::none);
     const LineIntegrals line = clouds_.integrate(ray, hit ? hit->metres : endless);
@@ -255,14 +321,37 @@ RayIntegrals PathTracer::integrate(const Ray& ray) const {
         result.clear = 0.0;
     }
     result.transmittance = glm::dvec3(result.clear);
-    if (!fog_.empty()) result.transmittance *= fog_.transmittance(ray, endless);
+    if constexpr (std::is_same_v<Haze, Fog>) {
+        if (!haze_.empty()) result.transmittance *= haze_.transmittance(ray, endless);
+    }
     return result;
 }
 
-std::optional<double> PathTracer::front(const Ray& ray) const {
+template <typename Light>
+std::optional<double> BasicPathTracer<Light>::front(const Ray& ray) const {
     const std::optional<double> metres = clouds_.front(ray);
     const auto hit = surfaces_.nearest(ray, Surfaces::none);
     return hit && !(metres && *metres < hit->metres) ? hit->metres : metres;
 }
+
+template <typename Light>
+glm::dvec3 BasicPathTracer<Light>::discUnit() const {
+    if constexpr (std::is_same_v<Haze, Fog>) return environment_.meanDiscRadiance();
+    return glm::dvec3(1.0);
+}
+
+template <typename Light>
+glm::dvec3 BasicPathTracer<Light>::discSeen(const Ray& ray) const {
+    const RayIntegrals line = integrate(ray);
+    if constexpr (std::is_same_v<Haze, Fog>) {
+        return line.transmittance * environment_.sun().limb(ray.direction);
+    } else {
+        return line.clear *
+               environment_.rgb(haze_.transmittance(ray, endless) * environment_.discRadiance(ray.direction));
+    }
+}
+
+template class BasicPathTracer<glm::dvec3>;
+template class BasicPathTracer<Four>;
 
 }  // namespace lumulus::reference

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "reference/air.h"
+#include "reference/air_sky.h"
 #include "reference/aureole.h"
 #include "reference/clouds.h"
 #include "reference/environment.h"
@@ -21,8 +23,9 @@ namespace lumulus::reference {
 /// One path from the eye.
 struct PathSample {
     glm::dvec3 radiance{0.0};  ///< of all light except the sky and sun directly behind, W·m⁻²·sr⁻¹
-    glm::dvec3 passed{0.0};    ///< of the sky directly behind, where the path met nothing; in Environment::unit
-    bool lost = false;         ///< ended by the limit of collisions
+    /// Of the sky directly behind, in Environment::unit: where the path met nothing, or met air before anything else.
+    glm::dvec3 passed{0.0};
+    bool lost = false;  ///< ended by the limit of collisions
 };
 
 /// Integrals along a ray, without noise.
@@ -32,36 +35,63 @@ struct RayIntegrals {
     double distance = 0.0;          ///< to clouds and surfaces: over 1 − clear, their mean distance. Metres
 };
 
-/// The unbiased path tracer of clouds, analytic fog and opaque surfaces under the sun and the sky: delta
-/// tracking in the clouds and exact free paths in the fog, whichever is nearer, next-event estimation to the sun's disc
-/// at each collision (ratio tracking through the clouds, closed form through the fog) and to spheres that give off
-/// light, both weighted against meeting them by chance (Veach 1997, the balance heuristic), the sky where a path
-/// escapes, the emission of surfaces and fog where a path meets them, any number of scatterings. Immutable; any number
-/// of threads may trace.
-class PathTracer {
+/// What light is made of: three channels of a sky without air, in which there may be fog, or four wavelengths in the
+/// air of an atmosphere.
+template <typename Light>
+struct WorldOf;
+
+template <>
+struct WorldOf<glm::dvec3> {
+    using Sky = Environment;
+    using Haze = Fog;
+};
+
+template <>
+struct WorldOf<Four> {
+    using Sky = AirSky;
+    using Haze = Air;
+};
+
+/// The unbiased path tracer of clouds, haze (analytic fog or the air of an atmosphere) and opaque surfaces under the
+/// sun and the sky: delta tracking in the clouds and exact free paths in the haze, whichever is nearer, next-event
+/// estimation to the sun's disc at each collision (ratio tracking through the clouds, the transmittance of the haze)
+/// and to spheres that give off light, both weighted against meeting them by chance (Veach 1997, the balance
+/// heuristic), the sky where a path escapes, the emission of surfaces and fog where a path meets them, any number of
+/// scatterings. Immutable; any number of threads may trace.
+template <typename Light>
+class BasicPathTracer {
   public:
+    using Sky = typename WorldOf<Light>::Sky;
+    using Haze = typename WorldOf<Light>::Haze;
+
     /// `volumes`: one for each cloud of the scene, read here only. `eye`: the fog ends at its `sky_distance` from
-    /// there. Errors: InputError for a phase function that is none.
-    PathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
-               const glm::dvec3& eye = glm::dvec3(0.0));
+    /// there. Errors: InputError for a phase function that is none, and for fog in an atmosphere.
+    BasicPathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
+                    const glm::dvec3& eye = glm::dvec3(0.0));
 
     PathSample trace(const Ray& ray, Random& random) const;
 
+    /// The air of an atmosphere is part of the sky and does not count here.
     RayIntegrals integrate(const Ray& ray) const;
 
     /// Metres to the nearest point of cloud or surface on the ray; absent if there is none.
     std::optional<double> front(const Ray& ray) const;
 
-    const Environment& environment() const { return environment_; }
-    bool hasFog() const { return !fog_.empty(); }
+    /// What a ray sees of the sun's disc, over `discUnit`.
+    glm::dvec3 discSeen(const Ray& ray) const;
+    /// What `discSeen` counts in, W·m⁻²·sr⁻¹.
+    glm::dvec3 discUnit() const;
+
+    const Sky& environment() const { return environment_; }
+    bool hazy() const { return !haze_.empty(); }
 
   private:
-    enum class Place { eye, cloud, fog, surface, sky };
+    enum class Place { eye, cloud, haze, surface, sky };
 
     /// A point from which a path goes on.
     struct Vertex {
         Place place = Place::eye;
-        std::size_t index = Surfaces::none;  ///< of the surface, the cloud, or the fog's medium
+        std::size_t index = Surfaces::none;  ///< of the surface, the cloud, or the medium of the haze
         glm::dvec3 arrived{0.0};             ///< direction of the path up to here
         Ray ray;                             ///< from here on, in the world
         CloudRays voxels;                    ///< the same for each cloud
@@ -73,7 +103,14 @@ class PathTracer {
     /// An unfinished path.
     struct Path {
         Vertex vertex;
-        glm::dvec3 throughput{1.0};
+        Light throughput{1.0};
+    };
+
+    /// What a path has found.
+    struct Found {
+        Light radiance{0.0};
+        Light passed{0.0};  ///< of the sky directly behind, in Environment::unit
+        bool haze = false;  ///< the path met haze before anything else
     };
 
     /// The next event of a path; infinitely far if that is the sky.
@@ -83,31 +120,41 @@ class PathTracer {
         std::size_t index = Surfaces::none;
     };
 
-    Event nextEvent(const Vertex& vertex, const glm::dvec3& throughput, Random& random) const;
+    Event nextEvent(const Vertex& vertex, const Light& throughput, Random& random) const;
+    void meetHaze(Event& event, const Vertex& vertex, const Light& throughput, Random& random) const;
+    void meetClouds(Event& event, const Vertex& vertex, Random& random) const;
     void arrive(Vertex& vertex, const Event& event) const;
-    double crossFog(const Vertex& vertex, const Event& event, glm::dvec3& radiance, glm::dvec3& throughput,
-                    Random& random) const;
-    double scatter(const Vertex& vertex, glm::dvec3& throughput) const;
+    double crossHaze(const Vertex& vertex, const Event& event, Light& radiance, Light& throughput,
+                     Random& random) const;
+    double scatter(const Vertex& vertex, Light& throughput) const;
     const PhaseFunction& phaseAt(const Vertex& vertex) const;
     glm::dvec3 turn(const Vertex& vertex, Random& random) const;
     double response(const Vertex& vertex, const glm::dvec3& toLight) const;
     double density(const Vertex& vertex, const glm::dvec3& direction) const;
     bool head(Path& path, const glm::dvec3& direction, Random& random) const;
     void branch(const Path& path, std::vector<Path>& branches, Random& random) const;
-    bool step(Path& path, PathSample& sample, std::vector<Path>& branches, Random& random) const;
-    glm::dvec3 emissionAt(const Vertex& vertex, const Event& event) const;
-    glm::dvec3 lampLight(const Vertex& vertex, Random& random) const;
-    glm::dvec3 sunByChance(const Vertex& vertex) const;
-    glm::dvec3 sunTransmission(const Vertex& vertex, double strength, Random& random) const;
-    bool isLit(const Vertex& vertex) const { return vertex.place != Place::fog || inscattering_; }
+    PathSample sampleOf(const Found& found) const;
+    bool step(Path& path, Found& found, std::vector<Path>& branches, Random& random) const;
+    Light emissionAt(const Vertex& vertex, const Event& event) const;
+    Light lampLight(const Vertex& vertex, Random& random) const;
+    Light sunByChance(const Vertex& vertex) const;
+    Light sunTransmission(const Vertex& vertex, double strength, Random& random) const;
+    bool isLit(const Vertex& vertex) const { return vertex.place != Place::haze || inscattering_; }
 
-    Environment environment_;
+    Sky environment_;
     Clouds clouds_;
     std::optional<Aureole> aureole_;
-    Fog fog_;
+    Haze haze_;
     Surfaces surfaces_;
     Lamps lamps_;
-    bool inscattering_;  ///< the fog scatters light straight from sun and sky
+    bool inscattering_;  ///< the haze scatters light straight from sun and sky
 };
+
+using PathTracer = BasicPathTracer<glm::dvec3>;
+/// Of scenes whose sky is an atmosphere.
+using AirTracer = BasicPathTracer<Four>;
+
+extern template class BasicPathTracer<glm::dvec3>;
+extern template class BasicPathTracer<Four>;
 
 }  // namespace lumulus::reference

@@ -65,29 +65,24 @@ Tile Painter::shownPart(const World& world, const ViewState::State& view) const 
     return shown;
 }
 
-<<<<<<< HEAD
-draw::Volumes Painter::volumes(const World& world, const ViewState::State& view) const {
+draw::Volumes Painter::volumes(const World& world, const ViewState::State& view, const gpu::Image& sunColours) const {
     const cloud::Asset& first = *world.instances[visible_.front()].asset;
     if (features_.many)
-        return {bricks_ ? *first.density : densities_->image(), bricks_ ? bricks_->image : first.brickIndex(),
-                majorants_->image(), view.lightFields ? view.lightFields->image() : none_,
-                world.sharedShadow ? world.sharedShadow->image() : none_};
-=======
-draw::Volumes Painter::volumes(const World& world, const ViewState::State& view, const gpu::Image& sunColours) const {
-    if (features_.many)
-        return {densities_->image(), majorants_->image(), view.lightFields ? view.lightFields->image() : none_,
-                view.shadowVolumes ? view.shadowVolumes->image() : none_, sunColours};
->>>>>>> air
+        return {bricks_ ? *first.density : densities_->image(),
+                bricks_ ? bricks_->image : first.brickIndex(),
+                majorants_->image(),
+                view.lightFields ? view.lightFields->image() : none_,
+                world.sharedShadow ? world.sharedShadow->image() : none_,
+                sunColours};
     const std::size_t only = visible_.front();
     const auto& field = view.instances[only].field;
     const auto& shadow = world.light[only].shadow;
-<<<<<<< HEAD
-    return {*first.density, first.brickIndex(), first.marchedCells(), field ? field->image() : none_,
-            shadow ? shadow->image() : none_};
-=======
-    return {asset.density, asset.marchedCells(), field ? field->image() : none_, shadow ? shadow->image() : none_,
+    return {*first.density,
+            first.brickIndex(),
+            first.marchedCells(),
+            field ? field->image() : none_,
+            shadow ? shadow->image() : none_,
             sunColours};
->>>>>>> air
 }
 
 shared::InstanceParams Painter::instanceParams(const World& world, const ViewState::State& view,

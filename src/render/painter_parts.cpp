@@ -14,11 +14,8 @@ draw::DrawFeatures featuresOf(const World& world) {
     features.sun = world.hasShadows();
     features.photons = world.hasPhotons();
     features.many = instances.size() > 1;
-<<<<<<< HEAD
     features.sparse = std::ranges::any_of(instances, [](const auto* i) { return i->asset->isSparse(); });
-=======
     features.air = world.lights.environment.atmosphere() != nullptr;
->>>>>>> air
     return features;
 }
 

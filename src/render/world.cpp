@@ -51,17 +51,9 @@ class Maker {
         makeCamera(scene_.camera, scene_.image, world_.bounds);  // what is wrong with it shows before the work
         const Stopwatch preparing;
         world_.light.resize(world_.instances.size());
-<<<<<<< HEAD
-        for (std::size_t i = 0; i < placed.size(); ++i) {
-            world_.light[i].sun = world_.lights.sunAt(world_.instances[i].bounds.centre, world_.fog);
-            prepare(i, placed[i]);
-        }
-        lightUpAll();
-=======
         for (std::size_t i = 0; i < placed.size(); ++i) prepare(i, placed[i]);
         findReachingLight(world_);
-        for (const std::size_t i : world_.visible()) lightUp(i);
->>>>>>> air
+        lightUpAll();
         if (!placed.empty()) report_.prepareSeconds = preparing.seconds();
         return std::move(world_);
     }
@@ -78,12 +70,8 @@ class Maker {
             instance.sceneExtinction = wanted;
             instance.offset = glm::dvec3(0.0);
         }
-<<<<<<< HEAD
-        lightUpAll();
-=======
         findReachingLight(world_);
-        for (const std::size_t i : world_.visible()) lightUp(i);
->>>>>>> air
+        lightUpAll();
         return std::move(world_);
     }
 

@@ -90,13 +90,21 @@ INSTANTIATE_TEST_SUITE_P(Lobes, SunThroughABall,
                                          Case{"LobeAsWideAsTheSun", 0.95, 6.0}, Case{"WideLobeNarrowSun", 0.85, 6.0}),
                          [](const testing::TestParamInfo<Case>& row) { return std::string(row.param.name); });
 
+scene::Phase phaseOf(scene::PhaseModel model, double g, double diameter) {
+    scene::Phase phase;
+    phase.model = model;
+    phase.g = g;
+    phase.dropletDiameter = diameter;
+    return phase;
+}
+
 /// The lobe is as high as the phase function, if that is narrow and wider than the sun.
 TEST(Aureole, HasThePeakOfThePhaseFunction) {
     const dvec3 sun = glm::normalize(dvec3(1.0, 2.0, -0.5));
     for (const scene::Phase& phase :
-         {scene::Phase{scene::PhaseModel::henyeyGreenstein, 0.95, 20.0},
-          scene::Phase{scene::PhaseModel::henyeyGreenstein, 0.9999, 20.0},
-          scene::Phase{scene::PhaseModel::schlick, 0.93, 20.0}, scene::Phase{scene::PhaseModel::droplet, 0.0, 20.0}}) {
+         {phaseOf(scene::PhaseModel::henyeyGreenstein, 0.95, 20.0),
+          phaseOf(scene::PhaseModel::henyeyGreenstein, 0.9999, 20.0), phaseOf(scene::PhaseModel::schlick, 0.93, 20.0),
+          phaseOf(scene::PhaseModel::droplet, 0.0, 20.0)}) {
         const PhaseFunction function(phase);
         const std::optional<Aureole> aureole = Aureole::of(function, sun, 0.0);
         ASSERT_TRUE(aureole);
@@ -106,15 +114,15 @@ TEST(Aureole, HasThePeakOfThePhaseFunction) {
         ASSERT_TRUE(ofAWideSun);
         EXPECT_NEAR(ofAWideSun->density(sun), 1.92 / (4.0 * glm::pi<double>() * 0.0064), 1e-9);
     }
-    EXPECT_FALSE(Aureole::of(PhaseFunction({scene::PhaseModel::henyeyGreenstein, 0.85, 20.0}), sun, 0.0));
-    EXPECT_FALSE(Aureole::of(PhaseFunction({scene::PhaseModel::henyeyGreenstein, 0.99, 20.0}), sun, 0.5));
+    EXPECT_FALSE(Aureole::of(PhaseFunction(phaseOf(scene::PhaseModel::henyeyGreenstein, 0.85, 20.0)), sun, 0.0));
+    EXPECT_FALSE(Aureole::of(PhaseFunction(phaseOf(scene::PhaseModel::henyeyGreenstein, 0.99, 20.0)), sun, 0.5));
 }
 
 /// Branches are drawn as densely as `density` says, about the sun: a χ² test over 30 bins of 1 − cos.
 TEST(Aureole, BranchesGoWhereTheDensitySays) {
     const dvec3 sun = glm::normalize(dvec3(-0.3, 0.4, 0.8));
     const std::optional<Aureole> aureole =
-        Aureole::of(PhaseFunction({scene::PhaseModel::droplet, 0.0, 20.0}), sun, 0.0);
+        Aureole::of(PhaseFunction(phaseOf(scene::PhaseModel::droplet, 0.0, 20.0)), sun, 0.0);
     ASSERT_TRUE(aureole);
     constexpr int bins = 30, samples = 100'000, steps = 400;
     const auto edge = [](int i) { return i == 0 ? 0.0 : 2.0 * std::pow(1e-6, 1.0 - static_cast<double>(i) / bins); };

@@ -6,3 +6,4 @@ lumulus_test(reference_fog_density_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/refere
              LINK lumulus_reference)
 lumulus_test(reference_surfaces_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_surfaces_test.cpp
              LINK lumulus_reference)
+lumulus_test(reference_air_path_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_air_path_test.cpp LINK lumulus_reference)

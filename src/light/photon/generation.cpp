@@ -77,12 +77,8 @@ GenerationTracer::GenerationTracer(gpu::Context& context, const cloud::Asset& cl
       invocations_(invocationsFor(context, options.photonsPerGeneration)),
       recordCapacity_(capacityFor(options.photonsPerGeneration, invocations_)),
       faceArea_(faceAreas(cloud.voxelToMetres, glm::dvec3(cloud.size))),
-<<<<<<< HEAD
       traceProgram_(context, "trace", traceSpirv(),
-                    traceConstants(medium.tables, medium.albedo, false, cloud.isSparse())),
-=======
-      traceProgram_(context, "trace", traceSpirv(), traceConstants(medium.tables, medium.albedo, false, options.air)),
->>>>>>> air
+                    traceConstants(medium.tables, medium.albedo, false, cloud.isSparse(), options.air)),
       scanProgram_(context, "scan", spirv::scan_comp),
       scatterProgram_(context, "scatter", spirv::scatter_comp),
       gatherProgram_(context, "gather", spirv::gather_comp, {SpecConstant::of(0, options.bands)}),

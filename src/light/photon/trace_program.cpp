@@ -18,22 +18,15 @@ std::span<const std::uint32_t> traceSpirv() {
 }
 
 std::vector<gpu::SpecConstant> traceConstants(const phase::ScatteringTables& tables, const glm::dvec3& albedo,
-<<<<<<< HEAD
-                                              bool periodic, bool sparse) {
-=======
-                                              bool periodic, bool air) {
->>>>>>> air
+                                              bool periodic, bool sparse, bool air) {
     const bool absorbs = std::min(albedo.x, std::min(albedo.y, albedo.z)) < 1.0;
     return {gpu::SpecConstant::of(0, tables.analyticHg),
             gpu::SpecConstant::of(1, tables.forwardFraction > 0.0F),
             gpu::SpecConstant::of(2, absorbs),
             gpu::SpecConstant::of(3, periodic),
             gpu::SpecConstant::of(4, !periodic && !tables.axisTable.empty()),
-<<<<<<< HEAD
+            gpu::SpecConstant::of(5, air),
             gpu::SpecConstant::of(15, sparse)};
-=======
-            gpu::SpecConstant::of(5, air)};
->>>>>>> air
 }
 
 void setFaces(shared::TraceParams& p, const glm::dmat3& faceArea) {

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "reference/air_medium.h"
+#include "reference/sun_disc.h"
+#include "scene/scene.h"
+
+namespace lumulus::reference {
+
+/// What lies behind the air of an atmosphere: the sun, whose light counts as 1 at each wavelength above the air, and
+/// nothing else. It has the functions of `Environment`, at four wavelengths. All light is per sunlight above the air;
+/// `rgb` makes W·m⁻² of it: where the scene's `sun.irradiance` is not that of the sun at its mean distance, each
+/// channel is scaled by their ratio.
+class AirSky {
+  public:
+    explicit AirSky(const scene::Scene& scene);
+
+    Four radiance(const glm::dvec3& /*direction*/) const { return Four(0.0); }
+    Four relativeRadiance(const glm::dvec3& /*direction*/) const { return Four(0.0); }
+    glm::dvec3 unit() const { return glm::dvec3(1.0); }
+
+    const SunDisc& sun() const { return sun_; }
+    bool sunny() const { return sunny_; }
+    /// 1/sr.
+    Four discRadiance(const glm::dvec3& direction) const {
+        return Four(sunny_ ? sun_.meanRadiance() * sun_.relativeRadiance(direction) : 0.0);
+    }
+    Four sunFluence() const { return Four(sunny_ ? sun_.fluence() : 0.0); }
+
+    const AirMedium& air() const { return air_; }
+
+    glm::dvec3 rgb(const Four& light) const { return scale_ * (air_.toRgb * light); }
+    Four albedo(const glm::dvec3& rgb) const { return air_.spread(rgb); }
+    Four emission(const glm::dvec3& rgb) const { return air_.lightOf(rgb * unscale_); }
+
+  private:
+    AirMedium air_;
+    SunDisc sun_;
+    bool sunny_;
+    glm::dvec3 scale_{1.0}, unscale_{1.0};
+};
+
+}  // namespace lumulus::reference

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <variant>
+
+#include "reference/tracer.h"
+
+namespace lumulus::reference {
+
+/// The path tracer that a scene needs: of four wavelengths where its sky is an atmosphere, else of three channels.
+class AnyTracer {
+  public:
+    /// As BasicPathTracer.
+    AnyTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
+              const glm::dvec3& eye);
+
+    PathSample trace(const Ray& ray, Random& random) const;
+    RayIntegrals integrate(const Ray& ray) const;
+    std::optional<double> front(const Ray& ray) const;
+    glm::dvec3 discSeen(const Ray& ray) const;
+    glm::dvec3 discUnit() const;
+    /// Environment::unit.
+    glm::dvec3 skyUnit() const;
+    const SunDisc& sun() const;
+    bool sunny() const;
+    /// Whether paths meet fog or air, which makes them long.
+    bool hazy() const;
+
+  private:
+    std::variant<PathTracer, AirTracer> tracer_;
+};
+
+}  // namespace lumulus::reference
