@@ -11,7 +11,7 @@
 namespace lumulus::vdb {
 
 std::vector<std::string> kinds() {
-    return {"cumulus", "stratus", "cirrus", "sphere", "slab"};
+    return {"cumulus", "stratocumulus", "stratus", "cirrus", "sphere", "slab"};
 }
 
 Volume makeBox(const std::string& name, const glm::dvec3& extent, int resolution, double flattening) {
@@ -37,6 +37,7 @@ Volume makeCloud(const ProceduralOptions& options, const Report& report) {
                          "resolution", "choose 8 to 1024 voxels");
     }
     if (options.kind == "cumulus") return makeCumulus(options.resolution, options.seed, report);
+    if (options.kind == "stratocumulus") return makeStratocumulus(options.resolution, options.seed, report);
     if (options.kind == "stratus") return makeStratus(options.resolution, options.seed, report);
     if (options.kind == "cirrus") return makeCirrus(options.resolution, options.seed, report);
     if (options.kind == "sphere") return makeSphere(options.resolution, report);

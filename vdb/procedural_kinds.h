@@ -17,6 +17,7 @@
 namespace lumulus::vdb {
 
 Volume makeCumulus(int resolution, std::uint64_t seed, const Report& report);
+Volume makeStratocumulus(int resolution, std::uint64_t seed, const Report& report);
 Volume makeStratus(int resolution, std::uint64_t seed, const Report& report);
 Volume makeCirrus(int resolution, std::uint64_t seed, const Report& report);
 Volume makeSphere(int resolution, const Report& report);

@@ -9,6 +9,7 @@
 #include "scene/load.h"
 #include "service/values/request_error.h"
 #include "service/values/sha256.h"
+#include "volume/place_clouds.h"
 
 namespace lumulus::service {
 
@@ -72,6 +73,7 @@ SourcedScene sourceScene(const LoadScene& load, const RenderConfig& config, std:
         found.scene = scene::parseScene(text, (config.scenes / name).string(), overrides, load.quality, folders);
         found.scene.source = name;
         applyLimits(found.scene, config.limits);
+        found.scene = placeClouds(std::move(found.scene));
         std::string key = text + '\0' + (load.quality ? std::to_string(static_cast<int>(*load.quality)) : "");
         for (const std::string& one : overrides) key += '\0' + one;
         if (load.isPrivate) key += std::string(1, '\0') + "private " + std::to_string(owner);

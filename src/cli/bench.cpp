@@ -20,6 +20,7 @@
 #include "cli/output.h"
 #include "gpu/device.h"
 #include "scene/load.h"
+#include "volume/place_clouds.h"
 
 namespace lumulus::cli {
 namespace {
@@ -47,7 +48,7 @@ std::optional<std::uint64_t> seedOf(const LayeredImage& reference) {
 
 void runBench(const BenchOptions& options) {
     const std::vector<double> budgets = bench::orderedBudgets(options.seconds);
-    const scene::Scene scene = scene::loadScene(options.scene, options.overrides);
+    const scene::Scene scene = placeClouds(scene::loadScene(options.scene, options.overrides));
     LayeredImage picture = readExr(options.reference);
     const std::vector<std::uint64_t> seeds = bench::seedsWithout(scene.photonMap.seed, options.seeds, seedOf(picture));
     const bench::Truth truth = bench::makeTruth(std::move(picture), options.reference.string(), scene.image.width,

@@ -85,7 +85,7 @@ void addRender(CLI::App& app, RenderOptions& options, Action& action) {
 
 void addCloud(CLI::App& app, CloudOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("cloud", "Make a procedural cloud as an OpenVDB file");
-    command->add_option("kind", options.kind, "cumulus, stratus, cirrus, sphere or slab")->required();
+    command->add_option("kind", options.kind, "cumulus, stratocumulus, stratus, cirrus, sphere or slab")->required();
     command->add_option("-o,--output", options.output, "OpenVDB file (.vdb)")->required();
     command->add_option("--resolution", options.resolution, "Voxels along the longest side")->capture_default_str();
     command->add_option("--seed", options.seed, "Seed of the shape")->check(seedRange())->capture_default_str();

@@ -23,6 +23,7 @@
 #include "reference/render.h"
 #include "scene/load.h"
 #include "volume/load.h"
+#include "volume/place_clouds.h"
 #include "volume/summary.h"
 
 namespace lumulus::cli {
@@ -37,7 +38,7 @@ double secondsSince(Clock::time_point start) {
 scene::Scene sceneOf(const ReferenceOptions& options) {
     std::vector<std::string> overrides = options.overrides;
     if (options.seed) overrides.push_back("photon_map.seed=" + std::to_string(*options.seed));
-    return scene::loadScene(options.scene, overrides);
+    return placeClouds(scene::loadScene(options.scene, overrides));
 }
 
 void checkOptions(const ReferenceOptions& options) {

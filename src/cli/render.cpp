@@ -21,6 +21,7 @@
 #include "progressive/trace_until.h"
 #include "render/renderer.h"
 #include "scene/load.h"
+#include "volume/place_clouds.h"
 
 namespace lumulus::cli {
 namespace {
@@ -46,7 +47,7 @@ void checkOutputs(const RenderOptions& options) {
 scene::Scene sceneOf(const RenderOptions& options) {
     std::vector<std::string> overrides = options.overrides;
     if (options.seed) overrides.push_back("photon_map.seed=" + std::to_string(*options.seed));
-    return scene::loadScene(options.scene, overrides, options.quality);
+    return placeClouds(scene::loadScene(options.scene, overrides, options.quality));
 }
 
 void requirePositive(const std::optional<double>& value, const char* option) {

@@ -16,8 +16,9 @@ struct ArraySection {
     std::size_t implied;  ///< entries of a scene that says nothing of them
 };
 
-inline constexpr std::array<ArraySection, 3> arraySections{{
+inline constexpr std::array<ArraySection, 4> arraySections{{
     {"cloud", "cloud", "clouds", 256, 1},
+    {"field", "field", "fields", 64, 0},
     {"fog.media", "medium", "media", 256, 0},
     {"surface", "surface", "surfaces", 256, 0},
 }};

@@ -43,5 +43,6 @@ std::vector<Key> sunAndSkyKeys();
 std::vector<Key> atmosphereKeys();
 std::vector<Key> timeKeys();  ///< time, moon, and what of the sun goes with them
 std::vector<Key> phaseKeys();
+std::vector<Key> fieldKeys();
 
 }  // namespace lumulus::scene

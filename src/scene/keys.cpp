@@ -94,7 +94,7 @@ std::vector<Key> cloudKeys() {
               "Negative, infinite and undefined values of the grid become 0. Without it they are errors, but for "
               "negatives of at most 1 % of the maximum, which become 0 with a warning.",
               [](Draft& d, const Value& v) { cloudOf(d).clamp = v.boolean; }),
-        choice("cloud.procedural", {"cumulus", "stratus", "cirrus", "sphere", "slab"}, "\"cumulus\"",
+        choice("cloud.procedural", {"cumulus", "stratocumulus", "stratus", "cirrus", "sphere", "slab"}, "\"cumulus\"",
                "Kind of a procedural cloud, as for `lumulus cloud`.",
                [](Draft& d, const Value& v) { cloudOf(d).procedural = v.text; }),
         integer("cloud.resolution", {8.0, 1024.0}, "192", "Voxels along the longest side of a procedural cloud.",
@@ -106,6 +106,12 @@ std::vector<Key> cloudKeys() {
             "Rows of an invertible matrix that acts on columns (x, y, z, 1), after the grid's own transform. The last "
             "column is a shift in metres. A fourth row, if given, is [0, 0, 0, 1].",
             [](Draft& d, const Value& v) { cloudOf(d).transform = v.matrix; }),
+        other("cloud.instances", Type::path, "(none: one cloud, where it is)",
+              "Name of a CSV file of places, a cloud for each row: the first line is `x,y,z,yaw,scale,extinction`, "
+              "where all after `z` may be left out. Metres; degrees clockwise seen from above; factors. The cloud is "
+              "scaled and rotated about the origin after its `transform`, and then moved. The rows of the cloud NAME "
+              "are called NAME[0], NAME[1] and so on.",
+              [](Draft& d, const Value& v) { cloudOf(d).instances = (d.folder / v.text).lexically_normal(); }),
         number("cloud.density_scale", {0.0, 1e6}, "1.0", "Factor for the values of the grid.",
                [](Draft& d, const Value& v) { cloudOf(d).densityScale = v.number; }),
         number("cloud.extinction", {0.0, 1e6}, "0.08",
@@ -277,9 +283,9 @@ std::vector<Key> surfaceKeys() {
 const std::vector<Key>& schema() {
     static const std::vector<Key> all = [] {
         std::vector<Key> keys;
-        for (const auto& part :
-             {imageAndCameraKeys(), timeKeys(), sunAndSkyKeys(), atmosphereKeys(), groundKeys(), cloudKeys(),
-              phaseKeys(), preparationKeys(), photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys()}) {
+        for (const auto& part : {imageAndCameraKeys(), timeKeys(), sunAndSkyKeys(), atmosphereKeys(), groundKeys(),
+                                 cloudKeys(), phaseKeys(), fieldKeys(), preparationKeys(), photonMapAndDrawKeys(),
+                                 fogKeys(), mediumKeys(), surfaceKeys()}) {
             keys.insert(keys.end(), part.begin(), part.end());
         }
         return keys;

@@ -45,7 +45,8 @@ Scene readScene(const Sources& from, std::optional<std::size_t>& current) {
     draft.scene.source = from.name;
     draft.folder = std::filesystem::path(from.name).parent_path();
     draft.allowed = from.folders;
-    draft.scene.clouds.resize(settings.entries("cloud"));
+    draft.scene.fields.resize(settings.entries("field"));
+    draft.scene.clouds.resize(settings.entries("cloud", draft.scene.fields.empty() ? 1 : 0));
     draft.scene.fog.media.resize(settings.entries("fog.media"));
     draft.scene.surfaces.resize(settings.entries("surface"));
     if (from.quality) applyQuality(draft.scene, *from.quality);

@@ -156,8 +156,12 @@ std::string Settings::overriddenName(const ArraySection& array, const std::strin
 }
 
 std::size_t Settings::entries(std::string_view array) const {
+    return entries(array, arrayOf(array)->implied);
+}
+
+std::size_t Settings::entries(std::string_view array, std::size_t implied) const {
     const auto it = entries_.find(array);
-    return it == entries_.end() ? arrayOf(array)->implied : it->second;
+    return it == entries_.end() ? implied : it->second;
 }
 
 const Setting* Settings::find(const std::string& path) const {

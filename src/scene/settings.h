@@ -42,8 +42,9 @@ class Settings {
 
     const std::map<std::string, Setting>& all() const { return settings_; }
     const Setting* find(const std::string& path) const;
-    /// Number of entries of an array section; where nothing is said about it, those that are implied.
+    /// Number of entries of an array section; where nothing is said about it, those that are implied, or `implied`.
     std::size_t entries(std::string_view array) const;
+    std::size_t entries(std::string_view array, std::size_t implied) const;
 
   private:
     struct Origin;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "scene/alternatives.h"
+#include "scene/check_field.h"
 #include "scene/finish_sky.h"
 #include "scene/phase_table_file.h"
 #include "scene/sun_and_moon.h"
@@ -147,15 +148,16 @@ bool isAllowed(const std::filesystem::path& file, std::span<const std::filesyste
     });
 }
 
-void checkCloudFile(const Cloud& cloud, const std::string& path, std::span<const std::filesystem::path> allowed,
-                    const Settings& settings) {
-    if (cloud.vdb.empty()) return;
+/// Refuses a file of the key `path` that does not exist or may not be read. `kind`: "an OpenVDB file".
+void checkFile(const std::filesystem::path& file, const std::string& path, const char* kind,
+               std::span<const std::filesystem::path> allowed, const Settings& settings) {
+    if (file.empty()) return;
     std::error_code ec;
-    const bool exists = isAllowed(cloud.vdb, allowed) && std::filesystem::exists(cloud.vdb, ec);
-    if (!exists || std::filesystem::is_directory(cloud.vdb, ec)) {
-        throw InputError(fmt::format("{} {}", cloud.vdb.string(), exists ? "is a folder" : "does not exist"),
-                         whereOf(settings, {(path + ".vdb").c_str()}),
-                         "give an OpenVDB file, its path relative to the scene file");
+    const bool exists = isAllowed(file, allowed) && std::filesystem::exists(file, ec);
+    if (!exists || std::filesystem::is_directory(file, ec)) {
+        throw InputError(fmt::format("{} {}", file.string(), exists ? "is a folder" : "does not exist"),
+                         whereOf(settings, {path.c_str()}),
+                         fmt::format("give {}, its path relative to the scene file", kind));
     }
 }
 
@@ -214,8 +216,10 @@ Scene finishScene(Draft draft, const Settings& settings) {
         checkName(draft.scene.clouds, i, settings);
         checkPhase(cloud.phase, path, settings);
         checkPhaseTable(cloud.phase, path, draft.allowed, settings);
-        checkCloudFile(cloud, path, draft.allowed, settings);
+        checkFile(cloud.vdb, path + ".vdb", "an OpenVDB file", draft.allowed, settings);
+        checkFile(cloud.instances, path + ".instances", "a CSV file of places", draft.allowed, settings);
     }
+    for (std::size_t i = 0; i < draft.scene.fields.size(); ++i) checkField(draft.scene, i, settings);
     checkFog(draft.scene.fog, settings);
     for (std::size_t i = 0; i < draft.scene.fog.media.size(); ++i) finishMedium(draft.scene.fog.media[i], i, settings);
     for (std::size_t i = 0; i < draft.scene.surfaces.size(); ++i) finishSurface(draft.scene.surfaces[i], i, settings);

@@ -98,6 +98,13 @@ void loadAll(std::vector<Source>& sources, double budget, const Report& report, 
     }
 }
 
+/// Where the keys of a cloud stand in the scene: "cloud.veil" for veil and for its instances veil[0], veil[1] and so
+/// on.
+std::string keysOf(const scene::Scene& scene, std::size_t cloud) {
+    const std::string name = scene::nameOf(scene, cloud);
+    return "cloud." + name.substr(0, name.find('['));
+}
+
 /// The different sources of the clouds; `volumeOf` becomes the index of each cloud's.
 std::vector<Source> differentSources(const std::vector<scene::Cloud>& clouds, std::vector<std::size_t>& volumeOf) {
     std::vector<Source> sources;
@@ -127,7 +134,7 @@ CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const C
     loadAll(sources, budget, report, limits);
     CloudVolumes result;
     for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
-        const std::string where = "cloud." + std::to_string(i) + ".transform";
+        const std::string where = keysOf(scene, i) + ".transform";
         result.clouds.push_back({volumeOf[i], sources[volumeOf[i]].placeUnder(scene.clouds[i].transform, where), {}});
     }
     std::vector<vdb::ColumnSums> sums;
@@ -140,7 +147,7 @@ CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const C
     for (Source& source : sources) {
         for (const std::string& warning : source.loaded.warnings) {
             const bool alone = scene.clouds.size() == 1;
-            result.warnings.push_back(alone ? warning : "cloud." + std::to_string(source.index) + ": " + warning);
+            result.warnings.push_back(alone ? warning : keysOf(scene, source.index) + ": " + warning);
         }
         result.volumes.push_back(std::move(source.loaded.volume));
     }

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <set>
+
 #include "base/text.h"
 #include "scene/scene.h"
 #include "volume/load.h"
@@ -35,30 +39,34 @@ std::string lineOf(const CloudSummary& cloud) {
 }
 
 std::string gridNames(std::span<const CloudSummary> clouds) {
+    constexpr std::size_t most = 256;  // as many as a scene can name one by one
     if (clouds.size() == 1) return clouds.front().grid;
     std::string text;
-    for (const CloudSummary& cloud : clouds)
+    for (const CloudSummary& cloud : clouds.first(std::min(clouds.size(), most)))
         text += fmt::format("{}cloud.{}: {}", text.empty() ? "" : ", ", cloud.name, cloud.grid);
+    if (clouds.size() > most) text += fmt::format(", {} more", clouds.size() - most);
     return text;
 }
 
 std::vector<std::string> warningsOf(std::span<const CloudSummary> clouds) {
     constexpr double visible = 0.01, faint = 0.1, penetrable = 1000.0;
     std::vector<std::string> warnings;
+    std::set<std::string> faintOnes, denseOnes;  // instances of one cloud are warned of once
     for (const CloudSummary& cloud : clouds) {
+        const std::string of = cloud.name.substr(0, cloud.name.find('['));
         const double most = cloud.largestThickness, mean = cloud.meanThickness;
-        if (most > 0.0 && mean < visible && most < faint)
+        if (most > 0.0 && mean < visible && most < faint && faintOnes.insert(of).second)
             warnings.push_back(fmt::format(
                 "the optical thickness of cloud.{0} is {1:.2g} on average and {2:.2g} at most: next to nothing will be "
-                "seen; raise cloud.{0}.density_scale or cloud.{0}.extinction, or enlarge it by cloud.{0}.transform "
+                "seen; raise cloud.{3}.density_scale or cloud.{3}.extinction, or enlarge it by cloud.{3}.transform "
                 "(lengths are metres)",
-                cloud.name, mean, most));
-        if (most > penetrable)
+                cloud.name, mean, most, of));
+        if (most > penetrable && denseOnes.insert(of).second)
             warnings.push_back(fmt::format(
                 "the optical thickness of cloud.{0} is up to {1:.2g}: next to no light gets in, and tracing takes "
-                "long; lower cloud.{0}.density_scale or cloud.{0}.extinction, or shrink it by cloud.{0}.transform "
+                "long; lower cloud.{2}.density_scale or cloud.{2}.extinction, or shrink it by cloud.{2}.transform "
                 "(lengths are metres)",
-                cloud.name, most));
+                cloud.name, most, of));
     }
     return warnings;
 }

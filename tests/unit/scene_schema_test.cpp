@@ -36,6 +36,9 @@ std::string companionOf(const Key& key) {
     if (ofAir.contains(key.name)) return "model = \"atmosphere\"\n";
     if (name == "droplet_diameter") return "phase.model = \"droplet\"\n";
     if (name == "falloff" || name == "direction" || name == "offset") return "kind = \"exponential\"\n";
+    if (key.name == "field.smallest") return "largest = 1e6\n";
+    if (key.name == "field.largest") return "smallest = 1.0\n";
+    if (key.name.starts_with("field.")) return "";
     if (name == "center" || name == "radius") return "kind = \"sphere\"\n";
     return "";
 }
@@ -199,7 +202,7 @@ TEST(Suggest, NearestKey) {
     EXPECT_EQ(suggestKey("image.zzzzzz"),
               "the keys of image are background, ev100, exposure, exposure_mode, height, tone_map, width");
     EXPECT_EQ(suggestKey("image.extinction"), "did you mean extinction in [[cloud]]?");
-    EXPECT_THAT(suggestKey("zzzzzz"), HasSubstr("the sections are camera, cloud, draw, fog, image"));
+    EXPECT_THAT(suggestKey("zzzzzz"), HasSubstr("the sections are camera, cloud, draw, field, fog, image"));
 }
 
 TEST(Suggest, EditDistance) {

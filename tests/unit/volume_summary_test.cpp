@@ -67,6 +67,15 @@ TEST(CloudSummary, WarnsOfWhatWillNotBeSeenAndOfWalls) {
     }
 }
 
+TEST(CloudSummary, WarnsOfInstancesOfACloudOnce) {
+    const std::vector<CloudSummary> clouds{{"veil[0]", "", "cirrus", 2000.0, 900.0},
+                                           {"veil[1]", "", "cirrus", 3000.0, 900.0},
+                                           {"other", "", "cirrus", 3000.0, 900.0}};
+    EXPECT_THAT(warningsOf(clouds),
+                ElementsAre(AllOf(HasSubstr("of cloud.veil[0] is"), HasSubstr("cloud.veil.extinction")),
+                            HasSubstr("cloud.other.extinction")));
+}
+
 TEST(CloudSummary, NamesOfGrids) {
     EXPECT_EQ(gridNames(std::vector<CloudSummary>{{"0", "a.vdb", "smoke"}}), "smoke");
     EXPECT_EQ(gridNames(std::vector<CloudSummary>{{"0", "a.vdb", "smoke"}, {"veil", "", "cirrus"}}),
