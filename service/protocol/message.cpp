@@ -61,6 +61,8 @@ const char* messageName(MessageType type) {
             return "ping";
         case MessageType::change:
             return "change";
+        case MessageType::query:
+            return "query";
         case MessageType::listUploads:
             return "list_uploads";
         case MessageType::deleteUpload:

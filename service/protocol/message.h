@@ -32,6 +32,7 @@ enum class MessageType : std::uint16_t {
     listUploads = 12,
     deleteUpload = 13,
     listScenes = 14,
+    query = 15,
     error = 0x8000,
 };
 inline constexpr std::uint16_t replyBit = 0x8000;

@@ -1,6 +1,7 @@
 #include "service/protocol/replies.h"
 
 #include <cmath>
+#include <span>
 
 #include "base/version.h"
 #include "service/protocol/error_reply.h"
@@ -104,6 +105,17 @@ Message messageOf(std::uint64_t id, const FrameCancelled& cancelled) {
 
 Message messageOf(std::uint64_t id, const LightChanged&) {
     return {replyTo(MessageType::change), id, "{}", {}};
+}
+
+Message messageOf(std::uint64_t id, const QueryAnswer& answer) {
+    constexpr const char* names[] = {"segments", "sun", "ground_shadow"};
+    const json body{{"product", names[static_cast<std::size_t>(answer.product)]},
+                    {"width", answer.width},
+                    {"height", answer.height},
+                    {"channels", answer.channels},
+                    {"type", "float"}};
+    const auto bytes = std::as_bytes(std::span(answer.values));
+    return {replyTo(MessageType::query), id, body.dump(), {bytes.begin(), bytes.end()}};
 }
 
 Message messageOf(std::uint64_t id, const Failure& failure) {

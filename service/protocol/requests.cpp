@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "service/protocol/frame_fields.h"
+#include "service/protocol/query_fields.h"
 
 namespace lumulus::service {
 
@@ -144,6 +145,8 @@ Request readRequest(Message& message, JsonFields& fields, const RequestLimits& l
             return DeleteUpload{requireHash(fields.requiredText("hash", longestName), "hash")};
         case MessageType::listScenes:
             return ListScenes{};
+        case MessageType::query:
+            return readQuery(fields, message.payload);
         case MessageType::error:
             break;
     }
@@ -152,7 +155,8 @@ Request readRequest(Message& message, JsonFields& fields, const RequestLimits& l
 }
 
 bool takesPayload(MessageType type) {
-    return type == MessageType::loadScene || type == MessageType::upload || type == MessageType::composite;
+    return type == MessageType::loadScene || type == MessageType::upload || type == MessageType::composite ||
+           type == MessageType::query;
 }
 
 }  // namespace

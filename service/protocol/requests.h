@@ -24,7 +24,7 @@ struct Ping {};
 struct ListScenes {};
 
 using Request = std::variant<Hello, LoadScene, Upload, FrameRequest, StartStream, StopStream, Composite, Cancel,
-                             StatisticsRequest, Ping, Change, ListUploads, DeleteUpload, ListScenes>;
+                             StatisticsRequest, Ping, Change, ListUploads, DeleteUpload, ListScenes, QueryRequest>;
 
 /// Reads a request from a message. Errors: RequestError `bad_request` (the field is named), `too_large`,
 /// `unknown_type`.

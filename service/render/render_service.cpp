@@ -24,6 +24,7 @@ RenderService::RenderService(const RenderConfig& config, Instruments& instrument
       scheduler_({config.limits.queuedFrames, config.limits.streams, config.limits.unsentFrames}),
       scenes_(config.limits.scenes, config.limits.ownLights),
       encoding_(outlets_.mostEncoding),
+      queries_(mutex_, outlets_.reply),
       lights_(config, instruments, {mutex_, scenes_, [this](const SceneSlot& slot) { step(slot); }}),
       maker_(instruments, {mutex_, scheduler_, scenes_, changes_, encoding_, desk_, lights_, closing_, outlets_.reply,
                            outlets_.encode}),
@@ -59,6 +60,7 @@ RenderService::~RenderService() {
         stopping_ = closing_ = true;
     }
     wake_.notify_all();
+    queries_.stop();
     desk_.stop();
     renderThread_.join();
 }
@@ -74,6 +76,7 @@ void RenderService::removeClient(ClientId client) {
     {
         const std::lock_guard lock(mutex_);
         scheduler_.removeClient(client);
+        queries_.removeClient(client);
         scenes_.removeClient(client);
         desk_.removeClient(client);
         lights_.removeClient(client);
@@ -95,7 +98,7 @@ void RenderService::answer(ClientId client, std::uint64_t id, const StopStream& 
 }
 
 void RenderService::answer(ClientId client, std::uint64_t id, const Cancel& cancel) {
-    const bool found = scheduler_.cancel(client, cancel.request);
+    const bool found = scheduler_.cancel(client, cancel.request) || queries_.cancel(client, cancel.request);
     if (found) outlets_.reply(client, cancel.request, Failure{"cancelled", "cancelled on request", {}});
     outlets_.reply(client, id, FrameCancelled{found});
 }
@@ -110,6 +113,42 @@ void RenderService::answer(ClientId client, std::uint64_t id, Change change) {
     const bool toOwn = lights_.promise(client, slot, change.light, cloud);
     changes_.add({client, slot, std::move(change.light), cloud, toOwn});
     outlets_.reply(client, id, LightChanged{});
+}
+
+void RenderService::answer(QueryJob query) {
+    if (!scenes_.shownTo(query.client) && desk_.defaultPending())
+        throw RequestError("busy", "the default scene is being loaded: try again later");
+    if (!scenes_.shownTo(query.client)) throw RequestError("no_scene", "load a scene first");
+    queries_.submit(std::move(query));
+}
+
+/// On the render thread: hands over the queries that wait, with their scenes as they are now.
+void RenderService::handQueries() {
+    std::vector<std::pair<QueryJob, SlotPointer>> asked;
+    {
+        const std::lock_guard lock(mutex_);
+        for (QueryJob& job : queries_.takeAsked()) {
+            SlotPointer slot = scenes_.shownTo(job.client);
+            if (slot)
+                asked.emplace_back(std::move(job), std::move(slot));
+            else
+                outlets_.reply(job.client, job.id, Failure{"no_scene", "the scene is gone: load one", {}});
+        }
+    }
+    for (auto& [job, slot] : asked) {
+        std::optional<query::Media> media;
+        std::string why = "the scene cannot be asked";
+        try {
+            media = slot->media();
+        } catch (const std::exception& e) {
+            why = e.what();
+        }
+        const std::lock_guard lock(mutex_);
+        if (media)
+            queries_.hand(std::move(job), std::move(*media), slot->sunDirection());
+        else
+            outlets_.reply(job.client, job.id, Failure{"busy", why, {}});
+    }
 }
 
 void RenderService::submit(ClientId client, std::uint64_t id, RenderRequest request, MemoryBudget::Share memory) {
@@ -132,6 +171,8 @@ void RenderService::submit(ClientId client, std::uint64_t id, RenderRequest requ
             answer(client, id, *stop);
         } else if (const auto* cancel = std::get_if<Cancel>(&request)) {
             answer(client, id, *cancel);
+        } else if (auto* query = std::get_if<QueryRequest>(&request)) {
+            answer(QueryJob{client, id, std::move(*query), held});
         } else {
             answer(client, id, std::move(std::get<Change>(request)));
         }
@@ -185,6 +226,7 @@ void RenderService::shutDown() {
     };
     for (const Job& job : failed) fails(job.client, job.id);
     for (const auto& job : loads) fails(job.client, job.id);
+    for (const QueryJob& job : queries_.takeAll()) fails(job.client, job.id);
 }
 
 void RenderService::renderLoop() {
@@ -194,6 +236,7 @@ void RenderService::renderLoop() {
         bool starving = false;
         heartbeat_.step();
         maker_.applyChanges();
+        handQueries();
         std::vector<SlotPointer> retired;  // end after the lock
         {
             std::unique_lock lock(mutex_);
@@ -202,7 +245,8 @@ void RenderService::renderLoop() {
             rendering_ = false;
             idle_.notify_all();
             if (stopping_) return;
-            if (changes_.any()) continue;  // a picture that was asked for after a change shows it
+            if (changes_.any() || queries_.anyAsked())
+                continue;  // a picture that was asked for after a change shows it
             const auto now = Clock::now();
             const auto revision = [this](ClientId client) { return scenes_.revision(client); };
             const auto due = scheduler_.nextDue(now, revision);

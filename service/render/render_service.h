@@ -14,6 +14,7 @@
 #include "service/render/heartbeat.h"
 #include "service/render/light_desk.h"
 #include "service/render/pending_changes.h"
+#include "service/render/query_desk.h"
 #include "service/render/render_config.h"
 #include "service/render/scene_desk.h"
 #include "service/render/scene_store.h"
@@ -81,7 +82,9 @@ class RenderService {
     void answer(ClientId client, std::uint64_t id, const StopStream& stop);
     void answer(ClientId client, std::uint64_t id, const Cancel& cancel);
     void answer(ClientId client, std::uint64_t id, Change change);
+    void answer(QueryJob query);
     void submitFrame(Job job);
+    void handQueries();
     SceneDesk::Host deskHost();
 
     const RenderConfig& config_;
@@ -95,6 +98,7 @@ class RenderService {
     SceneStore scenes_;
     PendingChanges changes_;
     EncodingDesk encoding_;
+    QueryDesk queries_;
     bool rendering_ = false;  // the render thread is at a picture
     bool closing_ = false, stopping_ = false;
 

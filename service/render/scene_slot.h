@@ -83,6 +83,9 @@ class SceneSlot {
     void sharpenSun();
     double sharpenMs() const { return costs_.sunMs(sharpenShare()); }
     Clock::time_point lastTraced() const { return lastTraced_; }
+    /// What light meets in the scene as it is now, and the direction towards its sun.
+    query::Media media() { return renderer_->media(); }
+    const glm::dvec3& sunDirection() const { return renderer_->sun().directionTo; }
     /// A number that changes with everything that changes pictures of the same view.
     std::uint64_t revision() const { return revision_; }
 

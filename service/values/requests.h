@@ -127,8 +127,23 @@ struct Change {
     std::optional<CloudReference> cloud;  ///< whose extinction changes; absent: all clouds
 };
 
+enum class QueryProduct { segments, sun, groundShadow };
+
+/// Ways that one query may ask about.
+inline constexpr std::size_t mostQueryWays = 262144;
+
+/// A question about transmittance, without a picture.
+struct QueryRequest {
+    QueryProduct product = QueryProduct::segments;
+    std::vector<double> numbers;    ///< metres: segments x0, y0, z0, x1, y1, z1; points x, y, z
+    std::vector<double> rectangle;  ///< of a ground shadow: x0, z0, x1, z1 [m]
+    std::optional<double> y;        ///< its height [m]; absent: that of the ground, or 0
+    int width = 256, height = 256;  ///< its pixels
+};
+
 /// Requests that the render service answers.
-using RenderRequest = std::variant<LoadScene, FrameRequest, StartStream, StopStream, Composite, Cancel, Change>;
+using RenderRequest =
+    std::variant<LoadScene, FrameRequest, StartStream, StopStream, Composite, Cancel, Change, QueryRequest>;
 
 /// Limits of requests, from the configuration.
 struct RequestLimits {

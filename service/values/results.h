@@ -126,11 +126,19 @@ struct FrameCancelled {
 
 struct LightChanged {};
 
+/// What a query has found: rows of `width` numbers of `channels` values each.
+struct QueryAnswer {
+    QueryProduct product = QueryProduct::segments;
+    int width = 0, height = 1;  ///< passages are one row
+    int channels = 6;           ///< transmittance R, G, B; of passages also optical depth R, G, B
+    std::vector<float> values;
+};
+
 /// An answer to a request that failed.
 struct Failure {
     std::string code, text, where;  ///< as in RequestError
 };
 
-using Reply = std::variant<SceneDescription, StreamStopped, FrameCancelled, LightChanged, Failure>;
+using Reply = std::variant<SceneDescription, StreamStopped, FrameCancelled, LightChanged, QueryAnswer, Failure>;
 
 }  // namespace lumulus::service

@@ -11,6 +11,7 @@
 #include "render/pass_stage.h"
 #include "render/picture.h"
 #include "render/renderer_state.h"
+#include "render/world_media.h"
 
 namespace lumulus {
 
@@ -280,6 +281,10 @@ bool Renderer::setWind(const glm::dvec3& velocity) {
 
 void Renderer::setTime(double seconds) {
     setOffset(seconds * state_->world->wind);
+}
+
+query::Media Renderer::media() {
+    return mediaOf(state_->context, *state_->world, stopIfInterrupted);
 }
 
 Statistics Renderer::statistics() const {

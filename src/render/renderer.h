@@ -12,6 +12,7 @@
 #include "base/interrupt.h"
 #include "base/pass_time.h"
 #include "base/progress.h"
+#include "query/media.h"
 #include "scene/scene.h"
 #include "view/view.h"
 #include "volume/summary.h"
@@ -158,6 +159,10 @@ class Renderer {
     bool setWind(const glm::dvec3& velocity);
     /// Moves the clouds to where the wind has carried them at this time [s]; at 0 they are where the scene has them.
     void setTime(double seconds);
+
+    /// What light meets in the world as it is now, for questions without a picture; its own copy but for densities,
+    /// which are immutable. The first call reads densities back from the device.
+    query::Media media();
 
     Statistics statistics() const;
 

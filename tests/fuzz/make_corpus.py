@@ -35,6 +35,7 @@ CONVERSATIONS = {
     "ping": ("ping", {}, b""),
     "scenes": ("list_scenes", {}, b""),
     "change": ("change", {"sun": {"direction_to": [0, 1, 0]}}, b""),
+    "query": ("query", {"products": ["segments"]}, bytes(48)),
 }
 
 

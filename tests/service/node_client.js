@@ -13,7 +13,7 @@ const net = require("node:net");
 const MAGIC = 0x534C4D4C, VERSION = 1, HEADER = 32, REPLY = 0x8000, ERROR = 0x8000;
 const TYPES = {
     hello: 1, load_scene: 2, upload: 3, frame: 4, start_stream: 5, stop_stream: 6, composite: 7, cancel: 8, statistics: 9,
-    ping: 10, change: 11, list_uploads: 12, delete_upload: 13,
+    ping: 10, change: 11, list_uploads: 12, delete_upload: 13, query: 15,
 };
 
 function encode(type, id, json, payload = Buffer.alloc(0)) {
@@ -157,6 +157,17 @@ async function checkFrames(client) {
     assert.ok(weight > 1 && Math.abs(column / weight - 48) < 1 && Math.abs(row / weight - 16) < 1, `${column / weight}`);
 }
 
+async function checkQueries(client) {
+    const {json: {center: [x, y, z], radius}} = await client.ask("load_scene", {name: "small.toml"});
+    const row = Buffer.alloc(48);
+    [x - 2 * radius, y, z, x + 2 * radius, y, z].forEach((number, i) => row.writeDoubleLE(number, 8 * i));
+    const {json, payload} = await client.ask("query", {products: ["segments"]}, row);
+    assert.deepEqual([json.width, json.height, json.channels, payload.length], [1, 1, 6, 24]);
+    const [share, depth] = [payload.readFloatLE(0), payload.readFloatLE(12)];
+    assert.ok(depth > 1 && Math.abs(share - Math.exp(-depth)) < 1e-5, `${share} ${depth}`);
+    assert.equal(await refusal(client.ask("query", {products: ["segments"]}, Buffer.alloc(8))), "bad_request");
+}
+
 async function checkStreams(client) {
     const id = 2n ** 63n + 5n;  // no number of JavaScript's
     client.send("start_stream", {width: 16, height: 12, max_rate: 100}, undefined, id);
@@ -197,6 +208,7 @@ async function main([how, address, file]) {
     const client = await (how === "ws" ? Client.overWebSocket(address) : Client.overTcp(address));
     await checkHello(client);
     await checkFrames(client);
+    await checkQueries(client);
     await checkStreams(client);
     await checkUploads(client, file);
     await checkErrors(client);

@@ -77,6 +77,7 @@ TEST(Replies, AnswersHaveTheTypeOfTheirRequest) {
     EXPECT_EQ(type(StreamStopped{}), replyTo(MessageType::stopStream));
     EXPECT_EQ(type(FrameCancelled{}), replyTo(MessageType::cancel));
     EXPECT_EQ(type(LightChanged{}), replyTo(MessageType::change));
+    EXPECT_EQ(type(QueryAnswer{}), replyTo(MessageType::query));
     const Message failure = encodeReply(1, Failure{"busy", "too many", "streams"});
     EXPECT_EQ(failure.type, MessageType::error);
     EXPECT_EQ(json::parse(failure.json), json::parse(R"({"code":"busy","message":"too many","where":"streams"})"));

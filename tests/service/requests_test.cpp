@@ -201,6 +201,25 @@ TEST(Requests, AChangeMayNameTheCloudOfItsExtinction) {
     EXPECT_EQ(refusal(request(MessageType::frame, R"({"extinction":0.1,"cloud":0})")), "bad_request: cloud");
 }
 
+TEST(Requests, AQueryNamesItsProductAndItsPlaces) {
+    const auto query = std::get<QueryRequest>(parseRequest(
+        request(MessageType::query, R"({"products":["ground_shadow"],"rectangle":[-1,-2,3,4],"y":5})"), {}));
+    EXPECT_EQ(query.product, QueryProduct::groundShadow);
+    EXPECT_THAT(query.rectangle, testing::ElementsAre(-1.0, -2.0, 3.0, 4.0));
+    EXPECT_EQ(query.y, 5.0);
+    const auto refused = [](const char* json, std::size_t bytes) {
+        return refusal(request(MessageType::query, json, std::vector<std::byte>(bytes)));
+    };
+    EXPECT_EQ(refused(R"({"products":["segments"]})", 96), "taken");
+    EXPECT_EQ(refused(R"({"products":["segments"]})", 0), "bad_request: ");
+    EXPECT_EQ(refused(R"({"products":["segments"]})", 24), "bad_request: ");
+    EXPECT_EQ(refused(R"({"products":["sun"]})", (mostQueryWays + 1) * 24), "too_large: ");
+    EXPECT_EQ(refused("{}", 24), "bad_request: products");
+    EXPECT_EQ(refused(R"({"products":["sun","segments"]})", 24), "bad_request: products");
+    EXPECT_EQ(refused(R"({"products":["ground_shadow"],"rectangle":[0,0,1,1]})", 8), "bad_request: ");
+    EXPECT_EQ(refused(R"({"products":["ground_shadow"],"rectangle":[0,0,1]})", 0), "bad_request: rectangle");
+}
+
 TEST(Requests, ScenesAreListedWithoutAnyField) {
     EXPECT_EQ(refusal(request(MessageType::listScenes, "{}")), "taken");
     EXPECT_EQ(refusal(request(MessageType::listScenes, R"({"folder":".."})")), "bad_request: folder");
@@ -208,7 +227,7 @@ TEST(Requests, ScenesAreListedWithoutAnyField) {
 
 TEST(Requests, PayloadsAndTypesThatNobodyKnowsAreRefused) {
     EXPECT_EQ(refusal(request(MessageType::frame, "{}", bytesOf("x"))), "bad_request: ");
-    for (const int type : {0, 15, 77, 0x7FFF, 0x8000, 0x8004, 0xFFFF})
+    for (const int type : {0, 16, 77, 0x7FFF, 0x8000, 0x8004, 0xFFFF})
         EXPECT_EQ(refusal(request(static_cast<MessageType>(type), "{}")), "unknown_type: ") << type;
 }
 

@@ -51,6 +51,8 @@ inline std::vector<Message> validMessages() {
         request(MessageType::listUploads, "{}"),
         request(MessageType::deleteUpload, R"({"hash":"sha256:)" + hash + R"("})"),
         request(MessageType::listScenes, "{}"),
+        request(MessageType::query, R"({"products":["sun"]})", std::vector<std::byte>(24)),
+        request(MessageType::query, R"({"products":["ground_shadow"],"rectangle":[0,0,1,1],"width":4,"height":3})"),
     };
 }
 

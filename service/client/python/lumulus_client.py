@@ -19,7 +19,7 @@ HEADER = struct.Struct("<IHHQIIQ")  # magic, version, type, id, bytes of JSON, r
 REPLY, ERROR = 0x8000, 0x8000
 TYPES = {"hello": 1, "load_scene": 2, "upload": 3, "frame": 4, "start_stream": 5, "stop_stream": 6, "composite": 7,
          "cancel": 8, "statistics": 9, "ping": 10, "change": 11, "list_uploads": 12, "delete_upload": 13,
-         "list_scenes": 14}
+         "list_scenes": 14, "query": 15}
 CHUNK = 1 << 20
 
 
@@ -196,6 +196,12 @@ class Client:
         """A picture of another renderer as seen through the scene's medium: `color` and `depth` as bytes of float32,
         three a pixel and one a pixel, depth in metres from the eye."""
         return Frame(*self.ask("composite", {"width": width, "height": height, **fields}, color + depth))
+
+    def query(self, product, rows=b"", **fields):
+        """Transmittance without a picture: `product` is "segments" (rows of x0, y0, z0, x1, y1, z1), "sun" (rows of
+        x, y, z) or "ground_shadow" (rectangle=[x0, z0, x1, z1], width, height, y). `rows` are bytes of doubles. Returns
+        the answer and its floats as bytes."""
+        return self.ask("query", {"products": [product], **fields}, rows)
 
     def statistics(self):
         return self.ask("statistics")[0]

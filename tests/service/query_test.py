@@ -1,0 +1,113 @@
+"""Questions without a picture: transmittance along segments, towards the sun and on the ground, of the light and the clouds
+of now."""
+
+import math
+import struct
+import threading
+import time
+import unittest
+
+from server import ServiceTest
+from lumulus_client import ServiceError
+
+
+def doubles(*numbers):
+    return struct.pack(f"<{len(numbers)}d", *numbers)
+
+
+def floats(data):
+    return struct.unpack(f"<{len(data) // 4}f", data)
+
+
+# through the middle of the small scene's ball, radius 100 m about (0, 100, 0)
+THROUGH, TO_MIDDLE = (-500, 100, 0, 500, 100, 0), (-500, 100, 0, 0, 100, 0)
+
+
+class Queries(ServiceTest):
+    def segments(self, client, *rows):
+        """(transmittance, optical depth) of each row, red."""
+        info, data = client.query("segments", doubles(*(number for row in rows for number in row)))
+        self.assertEqual((info["width"], info["channels"]), (len(rows), 6))
+        values = floats(data)
+        return [(values[i], values[i + 3]) for i in range(0, len(values), 6)]
+
+    def test_segments(self):
+        with self.server.client() as client:
+            through, middle, nothing = self.segments(client, THROUGH, TO_MIDDLE, (1e7, 0, 0, 1e7, 0, 0))
+        self.assertAlmostEqual(through[1], 2 * middle[1], delta=1e-3 * through[1])
+        self.assertAlmostEqual(through[0], math.exp(-through[1]), delta=1e-6)
+        self.assertGreater(through[1], 3)
+        self.assertEqual(nothing, (1, 0))
+
+    def test_they_see_the_extinction_and_the_sun_of_now(self):
+        with self.server.client() as client, self.server.client() as other:
+            before = self.segments(client, THROUGH)[0][1]
+            client.change(extinction=0.06, sun={"direction_to": [1, 0, 0]})
+            self.assertAlmostEqual(self.segments(client, THROUGH)[0][1], 2 * before, delta=1e-3 * before)
+            self.assertAlmostEqual(self.segments(other, THROUGH)[0][1], before, delta=1e-6)
+            west, east = (floats(client.query("sun", doubles(x, 100, 0))[1])[0] for x in (-300, 300))
+            self.assertLess(west, 0.01)
+            self.assertEqual(east, 1)
+
+    def test_ground_shadow(self):
+        with self.server.client() as client:
+            client.change(sun={"direction_to": [0, 1, 0]})
+            info, data = client.query("ground_shadow", rectangle=[-300, -200, 300, 200], y=-5, width=6, height=4)
+        self.assertEqual((info["product"], info["width"], info["height"], info["channels"]), ("ground_shadow", 6, 4, 3))
+        red = floats(data)[::3]
+        dark = {i for i, share in enumerate(red) if share < 1}
+        self.assertEqual(dark, {6 * row + column for row in (1, 2) for column in (2, 3)})
+
+    def test_refusals(self):
+        with self.server.client() as client:
+            for product, rows, fields, code, where in (
+                    ("segments", b"", {}, "bad_request", ""), ("segments", bytes(40), {}, "bad_request", ""),
+                    ("sun", doubles(1, 2, 3, math.nan, 5, 6), {}, "bad_request", "row 1"),
+                    ("sun", doubles(1, 2, 2e9), {}, "bad_request", "row 0"),
+                    ("sun", bytes(24 * 262145), {}, "too_large", ""), ("moon", b"", {}, "bad_request", "products"),
+                    ("ground_shadow", b"", {}, "bad_request", "rectangle"),
+                    ("ground_shadow", b"", {"rectangle": [0, 0, 0, 1]}, "bad_request", "rectangle"),
+                    ("ground_shadow", b"", {"rectangle": [0, 0, 1, 1], "width": 0}, "bad_request", "width"),
+                    ("ground_shadow", b"", {"rectangle": [0, 0, 1, 1], "width": 4096, "height": 4096}, "too_large", "width"),
+                    ("segments", bytes(48), {"y": 0}, "bad_request", "y")):
+                with self.subTest(product=product, fields=fields), self.assertRaises(ServiceError) as caught:
+                    client.query(product, rows, **fields)
+                self.assertEqual((caught.exception.code, caught.exception.where), (code, where))
+
+    def test_many_are_cancelled_or_wait_or_are_refused(self):
+        rows = doubles(*THROUGH) * 200000
+        with self.server.client() as client:
+            ids = [client.send("query", {"products": ["segments"]}, rows) for _ in range(12)]
+            client.send("cancel", {"request": ids[0]})
+            answers = {}
+            while len(answers) < 12:
+                kind, request, info, _ = client.receive()
+                if request in ids:
+                    answers[request] = info.get("code", "answered")
+        self.assertIn(answers[ids[0]], ("cancelled", "answered"))
+        self.assertLessEqual(set(answers.values()), {"answered", "busy", "cancelled"})
+        self.assertIn("answered", answers.values())
+
+    def test_frames_go_on_beside_them(self):
+        with self.server.client() as client, self.server.client() as asking:
+            client.frame(width=64, height=48)
+            done = threading.Event()
+
+            def ask():
+                while not done.is_set():
+                    self.segments(asking, *([THROUGH] * 50000))
+
+            thread = threading.Thread(target=ask)
+            thread.start()
+            try:
+                start = time.monotonic()
+                for _ in range(10):
+                    client.frame(width=64, height=48)
+                self.assertLess(time.monotonic() - start, 20)
+            finally:
+                done.set()
+                thread.join()
+
+
+if __name__ == "__main__":
+    unittest.main()
