@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "light/light_field.h"
@@ -18,6 +19,7 @@ struct InstanceLight {
     int shadowReduction = 0;                   ///< of the shadow volume that is up to date (1: whole); 0: it is not
     bool sharpening = false;                   ///< a whole shadow volume is in the making
     std::optional<LightCells> cells;
+    std::shared_ptr<CellLayouts> layouts = std::make_shared<CellLayouts>();  ///< shared by all lights of the asset
     bool counted = false;       ///< what of `cells` no view changes is up to date
     std::uint64_t version = 1;  ///< of the photons' light: views know by it whether their light fields are up to date
 

@@ -77,7 +77,8 @@ class PhotonMap {
     void trace(const scene::Sun& sun, const sky::Environment& environment, std::optional<double> extinction = {});
 
     /// Traces one generation that `cutOff` may end. Returns whether it was finished; else nothing is left of it. A
-    /// finished one waits for keep() or drop(), and the map has the light of before until then. Without a ring, the
+    /// finished one waits for keep() or drop(), and the map has the light of before until then: one with a ring also
+    /// between the rounds, so that pictures may be drawn in `check` and in what `cutOff` asks. Without a ring, the
     /// first that may be cut off beside others takes the memory of one generation more until they are settled.
     bool tryTrace(const scene::Sun& sun, const sky::Environment& environment, const CutOff& cutOff,
                   std::optional<double> extinction = {});
