@@ -65,10 +65,6 @@ void FrameMaker::apply(const std::vector<PendingChanges::Change>& changes) {
     }
 }
 
-bool FrameMaker::isBusy(const SlotPointer& slot) const {
-    return std::ranges::find(busy_, slot.get()) != busy_.end();
-}
-
 /// Errors: those of the scene.
 void FrameMaker::trace(const SlotPointer& slot, bool generation) {
     const Busy busy(busy_, *slot);
@@ -165,7 +161,7 @@ void FrameMaker::makeFrame(Job job, const FrameRequest& frame, SlotPointer slot)
         hurry = host_.closing;
     }
     // between the steps of other work, which is to go on soon
-    const bool mayTrace = busy_.empty() || slot->tracesQuickly();
+    const bool mayTrace = slot->canTrace() && (busy_.empty() || slot->tracesQuickly());
     if (!hurry && slot->needsGeneration(job, frame)) {
         if (mayTrace) trace(slot, true);
         bool kept = false;
@@ -188,20 +184,30 @@ void FrameMaker::makeFrame(Job job, const FrameRequest& frame, SlotPointer slot)
     handOver(job, std::move(drawn), slot, std::move(*memory));
 }
 
-void FrameMaker::interject(const SceneSlot& slot) {
+/// Seconds until a picture is due, within what a step of a generation may take.
+double FrameMaker::untilDue() {
+    const std::lock_guard lock(host_.mutex);
+    const auto now = Clock::now();
+    const auto due = host_.scheduler.nextDue(now, [this](ClientId client) { return host_.scenes.revision(client); });
+    constexpr double share = 0.8;  // steps do not take quite what they should
+    const double left = due ? share * std::chrono::duration<double>(*due - now).count() : SceneSlot::longRound;
+    return std::clamp(left, SceneSlot::shortRound, SceneSlot::longRound);
+}
+
+double FrameMaker::interject(const SceneSlot& slot) {
     constexpr std::size_t deepest = 4;
-    if (busy_.empty() || busy_.back() != &slot || busy_.size() >= deepest) return;
-    const auto seesOther = [this](ClientId client) {
+    if (busy_.empty() || busy_.back() != &slot || busy_.size() >= deepest) return SceneSlot::longRound;
+    const auto seesFree = [this](ClientId client) {
         const SlotPointer shown = host_.scenes.shownTo(client);
-        return shown && !isBusy(shown);
+        return shown && shown->canDraw();
     };
     std::vector<PendingChanges::Change> changes;
     {
         const std::lock_guard lock(host_.mutex);
-        if (host_.closing || host_.encoding.full()) return;
+        if (host_.closing || host_.encoding.full()) return SceneSlot::shortRound;
         changes = host_.changes.takeWhere([&](const PendingChanges::Change& change) {
             const SlotPointer shown = host_.scenes.shownTo(change.client);
-            return !isBusy(change.slot) && !(shown && isBusy(shown));
+            return change.slot->canDraw() && !(shown && !shown->canDraw());
         });
     }
     apply(changes);
@@ -209,9 +215,10 @@ void FrameMaker::interject(const SceneSlot& slot) {
     {
         const std::lock_guard lock(host_.mutex);
         const auto revision = [this](ClientId client) { return host_.scenes.revision(client); };
-        job = host_.scheduler.takeBeside(Clock::now(), revision, seesOther);
+        job = host_.scheduler.takeBeside(Clock::now(), revision, seesFree);
     }
     if (job) make(std::move(*job));
+    return untilDue();
 }
 
 void FrameMaker::leaveOut(const Job& job) {

@@ -20,7 +20,7 @@
 namespace lumulus::service {
 
 /// The work of the render thread: changes of light, generations of photons, and pictures from being due to being handed
-/// over. While one client's work takes long, pictures of other scenes are made between its steps. All functions are
+/// over. While one client's work takes long, pictures of others are made between its steps. All functions are
 /// called on the render thread, without the lock.
 class FrameMaker {
   public:
@@ -47,12 +47,13 @@ class FrameMaker {
     void make(Job job);
     /// Traces a generation of photons, or completes a part of the sun's shadow volume.
     void refine(const SlotPointer& slot, bool generation);
-    /// Between the steps of work on `slot`: changes the light of other scenes, and makes a picture of one that is due.
-    void interject(const SceneSlot& slot);
+    /// Between the steps of work on `slot`: changes light, and makes a picture that is due, of other scenes or, between
+    /// the rounds of a generation, of this one. Returns the seconds that the next step should take.
+    double interject(const SceneSlot& slot);
 
   private:
     void apply(const std::vector<PendingChanges::Change>& changes);
-    bool isBusy(const SlotPointer& slot) const;
+    double untilDue();
     void makeFrame(Job job, const FrameRequest& frame, SlotPointer slot);
     void trace(const SlotPointer& slot, bool generation);
     void leaveOut(const Job& job);

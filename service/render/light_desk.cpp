@@ -53,7 +53,7 @@ SlotPointer LightDesk::toChange(ClientId client, const SlotPointer& slot, const 
         host_.scenes.promiseOwn(client);
     }
     const SlotPointer own = make(client, slot);
-    own->onStep([step = host_.step, raw = own.get()] { step(*raw); });
+    own->onStep([step = host_.step, raw = own.get()] { return step(*raw); });
     instruments_.log.event("info", "light_made", {{"client", client}, {"scene", slot->scene().source}});
     const std::lock_guard lock(host_.mutex);
     host_.scenes.keepOwn(own);

@@ -19,8 +19,8 @@ class LightDesk {
     struct Host {
         std::mutex& mutex;  ///< guards `scenes` and what is kept here
         SceneStore& scenes;
-        /// Called with a slot between the steps of all work on it.
-        std::function<void(const SceneSlot&)> step;
+        /// Called with a slot between the steps of all work on it. Returns the seconds of the next.
+        std::function<double(const SceneSlot&)> step;
     };
 
     /// `config` and `instruments` must outlive this.

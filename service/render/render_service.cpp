@@ -25,7 +25,7 @@ RenderService::RenderService(const RenderConfig& config, Instruments& instrument
       scenes_(config.limits.scenes, config.limits.ownLights),
       encoding_(outlets_.mostEncoding),
       queries_(mutex_, outlets_.reply),
-      lights_(config, instruments, {mutex_, scenes_, [this](const SceneSlot& slot) { step(slot); }}),
+      lights_(config, instruments, {mutex_, scenes_, [this](const SceneSlot& slot) { return step(slot); }}),
       maker_(instruments, {mutex_, scheduler_, scenes_, changes_, encoding_, desk_, lights_, closing_, outlets_.reply,
                            outlets_.encode}),
       desk_(config, instruments, deskHost()) {
@@ -45,13 +45,13 @@ SceneDesk::Host RenderService::deskHost() {
                 wake_.notify_one();
             },
             outlets_.begun,
-            [this](const SceneSlot& slot) { step(slot); }};
+            [this](const SceneSlot& slot) { return step(slot); }};
 }
 
-/// On the render thread, between the steps of work on a scene.
-void RenderService::step(const SceneSlot& slot) {
+/// On the render thread, between the steps of work on a scene. Returns the seconds of the next one.
+double RenderService::step(const SceneSlot& slot) {
     heartbeat_.step();
-    maker_.interject(slot);
+    return maker_.interject(slot);
 }
 
 RenderService::~RenderService() {

@@ -77,7 +77,7 @@ class RenderService {
 
   private:
     void renderLoop();
-    void step(const SceneSlot& slot);
+    double step(const SceneSlot& slot);
 
     void answer(ClientId client, std::uint64_t id, const StopStream& stop);
     void answer(ClientId client, std::uint64_t id, const Cancel& cancel);

@@ -108,7 +108,7 @@ void SceneDesk::keep(const SlotPointer& slot) {
         unseen = host_.scenes.dropUnseen();
         if (!unseen) throw RequestError("busy", "there is no memory for another scene now: try again later");
     }
-    slot->onStep([step = host_.step, raw = slot.get()] { step(*raw); });
+    slot->onStep([step = host_.step, raw = slot.get()] { return step(*raw); });
     SlotPointer dropped;  // ends after the lock
     const std::lock_guard lock(host_.mutex);
     dropped = host_.scenes.keep(slot);

@@ -31,8 +31,8 @@ class SceneDesk {
         std::function<void()> ended;
         /// The default scene is there, or cannot be. Without the lock.
         std::function<void(std::exception_ptr)> begun;
-        /// Called with a slot between the steps of all work on it while it is held.
-        std::function<void(const SceneSlot&)> step;
+        /// Called with a slot between the steps of all work on it while it is held. Returns the seconds of the next.
+        std::function<double(const SceneSlot&)> step;
     };
 
     /// Begins to load the default scene, where there is one. `config` and `instruments` must outlive this.

@@ -82,14 +82,15 @@ RendererOptions SceneSlot::options() {
     return result;
 }
 
-SceneSlot::Guarded::Guarded(SceneSlot& slot, const std::atomic<bool>* cancelled) : slot_(slot) {
+SceneSlot::Guarded::Guarded(SceneSlot& slot, const std::atomic<bool>* cancelled)
+    : slot_(slot), cancelledBefore_(slot.cancelled_), deadlineBefore_(slot.deadline_) {
     slot_.cancelled_ = cancelled;
     slot_.deadline_ = Clock::now() + inSeconds(slot_.limits_.generationSeconds);
 }
 
 SceneSlot::Guarded::~Guarded() {
-    slot_.cancelled_ = nullptr;
-    slot_.deadline_ = Clock::time_point::max();
+    slot_.cancelled_ = cancelledBefore_;
+    slot_.deadline_ = deadlineBefore_;
 }
 
 void SceneSlot::guard() {
@@ -97,9 +98,10 @@ void SceneSlot::guard() {
     if (abandoned_) abandoned_();
     if (step_) {
         const auto start = Clock::now();
-        step_();
+        const auto pausedBefore = paused_;
+        stepSeconds_ = step_();
         const auto pause = Clock::now() - start;
-        paused_ += pause;
+        paused_ = pausedBefore + pause;  // whatever paused a picture of this scene within
         if (deadline_ != Clock::time_point::max()) deadline_ += pause;
     }
     if (cancelled_ != nullptr && cancelled_->load()) throw Cancelled{};
@@ -149,11 +151,14 @@ void SceneSlot::apply(const LightChange& change, std::optional<std::size_t> clou
     if (!light_->apply(change, cloud)) return;
     ++revision_;
     if (change.extinction) viewed_.forget();
+    // a generation of light that may be much work, and that nobody will see
+    if (change.extinction && tracing_ && !tracesQuickly()) dropsGeneration_ = true;
 }
 
 bool SceneSlot::revert() {
     const bool reverted = light_->revert();
     if (reverted) ++revision_;
+    dropsGeneration_ = dropsGeneration_ || (reverted && tracing_);
     return reverted;
 }
 
@@ -169,11 +174,17 @@ bool SceneSlot::tracesQuickly() const {
 void SceneSlot::traceGeneration() {
     const auto start = Clock::now();
     const auto pausedBefore = paused_;
+    const std::uint64_t lightBefore = revision_;
+    dropsGeneration_ = false;
     {
         const Guarded guarded(*this, nullptr);
-        renderer_->traceGeneration();
+        const Marked tracing(tracing_);
+        CutOff cutOff;
+        cutOff.due = [this] { return dropsGeneration_; };
+        cutOff.roundSeconds = [this] { return stepSeconds_; };
+        if (!renderer_->traceGeneration(cutOff)) return;
     }
-    light_->prove();
+    if (revision_ == lightBefore) light_->prove();
     costs_.traced(workedSince(start, pausedBefore));
     lastTraced_ = Clock::now();
     viewed_.forget();
@@ -235,6 +246,7 @@ View SceneSlot::smallView() const {
 void SceneSlot::probeNoise() {
     const Generations ring = renderer_->generations();
     if (!noise_.wants(ring.count) || ring.current < ring.count || renderer_->sunReduction() != 1) return;
+    const Marked drawing(drawing_);
     noise_.add(renderer_->draw(smallView(), viewer_), ring.count, ring.photons());
     viewed_.drawn({smallView()}, renderer_->bounds(), 0.0);
 }
@@ -271,6 +283,7 @@ bool SceneSlot::needsGeneration(const Job& job, const FrameRequest& frame) const
         return static_cast<std::uint64_t>(ring.current) * ring.photonsEach < *frame.budget.photons ||
                (ring.current == 0 && *frame.budget.photons > 0);
     if (!frame.budget.milliseconds) return !job.stream;  // a stream gets what is there
+    if (tracing_) return false;                          // as does who cannot wait for the generation on its way
     const double left = *frame.budget.milliseconds - millisecondsSince(job.arrived);
     const std::vector<View> views = viewsOf(frame.views);
     CostModel::Work work = workFor(views, frame.time);
@@ -356,6 +369,7 @@ FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {
     double enlarging = 0.0;
     {
         const Guarded guarded(*this, job.cancelled.get());
+        const Marked drawing(drawing_);
         enlarging = drawViews(views, result.reduction, result);
     }
     viewed_.drawn(views, renderer_->bounds(), frame.time);
@@ -382,6 +396,7 @@ CompositeResult SceneSlot::composite(const Job& job, const Composite& composite)
     LayeredImage picture;
     std::vector<float> depth = readPixels(composite, picture);
     const Guarded guarded(*this, job.cancelled.get());
+    const Marked drawing(drawing_);
     result.image = renderer_->throughFog(view, std::move(picture), std::move(depth));
     result.tone = scene::toneOf(scene_.image, std::array<const LayeredImage*, 1>{&result.image});
     return result;

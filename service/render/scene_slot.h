@@ -72,11 +72,17 @@ class SceneSlot {
 
     /// Whether the ring lacks generations under the light of now.
     bool wantsGeneration() const;
-    /// Errors: TooSlow.
+    /// Traces a generation, unless the light changes so that it is of no use. Errors: TooSlow.
     void traceGeneration();
     double traceMs() const { return costs_.traceMs(); }
     /// Whether a generation is known to be short enough to trace it between the steps of other work.
     bool tracesQuickly() const;
+    /// Seconds of the steps of a generation, if pictures are due before it ends. They can be made between two.
+    static constexpr double shortRound = 0.004, longRound = 0.02;
+    /// Whether work on the scene is at a step at which its pictures can be made and its light changed, or even a
+    /// generation traced.
+    bool canDraw() const { return !drawing_; }
+    bool canTrace() const { return !drawing_ && !tracing_; }
     /// Whether pictures show the sun by a shadow volume of reduced resolution.
     bool wantsSun() const { return renderer_->sunReduction() > 1; }
     /// Makes a part of the shadow volume's full resolution.
@@ -109,8 +115,9 @@ class SceneSlot {
     std::uint64_t frameBytes(const FrameRequest& frame) const;
     /// The same of a picture of so many pixels.
     static std::uint64_t pictureBytes(std::uint64_t pixels);
-    /// `step` is called between the steps of all work from now on. Before the scene is held.
-    void onStep(std::function<void()> step) { step_ = std::move(step); }
+    /// `step` is called between the steps of all work from now on, and returns the seconds that the next one should
+    /// take. Before the scene is held.
+    void onStep(std::function<double()> step) { step_ = std::move(step); }
 
   private:
     /// While it lives, work for a job ends where the job is cancelled or takes too long.
@@ -123,6 +130,19 @@ class SceneSlot {
 
       private:
         SceneSlot& slot_;
+        const std::atomic<bool>* cancelledBefore_;
+        Clock::time_point deadlineBefore_;
+    };
+    /// Sets a flag while it lives.
+    class Marked {
+      public:
+        explicit Marked(bool& flag) : flag_(flag) { flag_ = true; }
+        Marked(const Marked&) = delete;
+        Marked& operator=(const Marked&) = delete;
+        ~Marked() { flag_ = false; }
+
+      private:
+        bool& flag_;
     };
 
     RendererOptions options();
@@ -147,11 +167,15 @@ class SceneSlot {
     std::shared_ptr<SceneSlot> source_;
     const scene::Scene scene_;
     const RenderLimits& limits_;
-    std::function<void()> abandoned_, step_;
+    std::function<void()> abandoned_;
+    std::function<double()> step_;
     std::function<void(std::string_view)> begins_;  // a step of the load
     const std::atomic<bool>* cancelled_ = nullptr;  // of the job that is drawn
     Clock::time_point deadline_ = Clock::time_point::max();
     Clock::duration paused_{};  ///< in step_, which may work for others
+    double stepSeconds_ = longRound;
+    bool tracing_ = false, drawing_ = false;
+    bool dropsGeneration_ = false;  ///< that is traced
     std::unique_ptr<Renderer> renderer_;
     ViewState viewer_;  ///< of all views of the scene, which are drawn one after the other; gone before the renderer
     std::optional<LightState> light_;  ///< of the renderer

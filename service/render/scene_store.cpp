@@ -171,7 +171,7 @@ SlotPointer SceneStore::toRefine(Clock::time_point now, std::optional<Clock::tim
     for (const auto& [client, slot] : own_)
         if (slot) consider(slot);
     if (!best || !due || starves(*best, now)) return best;
-    const double step = best->wantsSun() ? best->sharpenMs() : best->traceMs();
+    const double step = best->wantsSun() ? best->sharpenMs() : std::min(best->traceMs(), 1e3 * SceneSlot::shortRound);
     return now + std::chrono::duration<double, std::milli>(step) < std::max(*due, now) ? best : nullptr;
 }
 

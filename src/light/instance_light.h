@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "light/light_field.h"
@@ -21,6 +22,7 @@ struct InstanceLight {
     bool sharpening = false;                   ///< a whole shadow volume is in the making
     std::uint64_t shadowVersion = 0;           ///< of the shadow volume that is shown
     std::optional<LightCells> cells;
+    std::shared_ptr<CellLayouts> layouts = std::make_shared<CellLayouts>();  ///< shared by all lights of the asset
     bool counted = false;       ///< what of `cells` no view changes is up to date
     std::uint64_t version = 1;  ///< of the photons' light: views know by it whether their light fields are up to date
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
+#include <utility>
 
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
@@ -14,7 +15,6 @@ namespace {
 namespace spirv {
 #include "spirv/light/light_cells.comp.h"
 #include "spirv/light/light_counts.comp.h"
-#include "spirv/light/light_mass.comp.h"
 #include "spirv/light/light_smooth.comp.h"
 }  // namespace spirv
 
@@ -52,18 +52,20 @@ cloud::CellGrid lightGrid(const cloud::Asset& cloud, std::uint64_t photons) {
 
 LightCells::LightCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
                        const cloud::CellGrid& estimates)
+    : LightCells(context, asset, std::make_shared<const CellLayout>(context, asset, grid), estimates) {}
+
+LightCells::LightCells(gpu::Context& context, const cloud::Asset& asset, std::shared_ptr<const CellLayout> layout,
+                       const cloud::CellGrid& estimates)
     : asset_(&asset),
-      grid_(grid),
+      layout_(std::move(layout)),
       estimatorGrid_(estimates),
-      massProgram_(context, "light_mass", spirv::light_mass_comp, {asset.sparseConstant()}),
-      countsProgram_(context, "light_counts", spirv::light_counts_comp, {gpu::SpecConstant::of(0, grid_.edge), asset.sparseConstant()}),
-      cellsProgram_(context, "light_cells", spirv::light_cells_comp, {gpu::SpecConstant::of(0, grid_.edge), asset.sparseConstant()}),
+      countsProgram_(context, "light_counts", spirv::light_counts_comp,
+                     {gpu::SpecConstant::of(0, grid().edge), asset.sparseConstant()}),
+      cellsProgram_(context, "light_cells", spirv::light_cells_comp,
+                    {gpu::SpecConstant::of(0, grid().edge), asset.sparseConstant()}),
       smoothProgram_(context, "light_smooth", spirv::light_smooth_comp),
-      mass_(context, "light cell mass", grid_.cells, VK_FORMAT_R32_SFLOAT),
-      counts_(context, "light counts", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT),
-      ownShare_(context, "own share", grid_.cells, VK_FORMAT_R32_SFLOAT),
-      lit_(findLitCells(context)),
-      litCells_(gpu::filledBuffer(context, "lit cells", lit_.numbers)) {}
+      counts_(context, "light counts", grid().cells, VK_FORMAT_R32G32B32A32_SFLOAT),
+      ownShare_(context, "own share", grid().cells, VK_FORMAT_R32_SFLOAT) {}
 
 LightField::LightField(gpu::Context& context, const cloud::CellGrid& grid)
     : grid_(grid),
@@ -73,25 +75,11 @@ LightField::LightField(gpu::Context& context, const cloud::CellGrid& grid)
     for (gpu::Image* image : {&cells_, &image_}) gpu::upload(context, *image, std::vector<std::byte>(image->bytes()));
 }
 
-/// Fills the mass.
-LitCells LightCells::findLitCells(gpu::Context& context) const {
-    gpu::Commands commands(context);
-    commands.begin();
-    commands.dispatch(massProgram_,
-                      {{"density", *asset_->density, gpu::Sampler::linear},
-                       {"bricks", asset_->brickIndex(), gpu::Sampler::nearest},
-                       {"cellMass", mass_}},
-                      push(), gpu::linearGroups(grid_.count(), 64));
-    commands.submit();
-    commands.wait();
-    return litCells(grid_.cells, gpu::download<float>(context, mass_));
-}
-
 shared::LightFieldPush LightCells::push() const {
     shared::LightFieldPush push{};
     push.size = asset_->size;
-    push.grid = grid_.cells;
-    push.edge = grid_.edge;
+    push.grid = grid().cells;
+    push.edge = grid().edge;
     return push;
 }
 
@@ -103,15 +91,15 @@ void LightCells::recordCounts(gpu::Commands& commands, const gpu::Image& fluence
                               const CollisionEstimates& estimates) const {
     shared::LightCountsPush values{};
     values.size = asset_->size;
-    values.grid = grid_.cells;
+    values.grid = grid().cells;
     values.estimatorCells = estimatorGrid_.cells;
-    values.estimatorAcross = grid_.edge / estimatorGrid_.edge;
+    values.estimatorAcross = grid().edge / estimatorGrid_.edge;
     values.estimatorBase = estimates.base;
     values.estimatorScale = static_cast<float>(estimates.unit);
     values.massScale = static_cast<float>(estimates.massScale);
     values.photon = static_cast<float>(estimates.photonPower);
     values.moment = static_cast<float>(estimates.moment);
-    values.occupied = lit_.occupied;
+    values.occupied = layout_->lit.occupied;
     commands.pass("light counts");
     commands.dispatch(countsProgram_,
                       {{"density", *asset_->density, gpu::Sampler::nearest},
@@ -119,22 +107,23 @@ void LightCells::recordCounts(gpu::Commands& commands, const gpu::Image& fluence
                        {"collectorIndex", asset_->collectorIndex, gpu::Sampler::nearest},
                        {"fluences", fluences},
                        {"CollisionEstimates", estimates.counts},
-                       {"cellMass", mass_},
+                       {"cellMass", layout_->mass},
                        {"counts", counts_},
                        {"ownShare", ownShare_},
-                       {"LitCells", litCells_}},
-                      values, gpu::linearGroups(lit_.occupied, 64));
+                       {"LitCells", layout_->litCells}},
+                      values, gpu::linearGroups(layout_->lit.occupied, 64));
     commands.barrier("light counts");
 }
 
 void LightField::record(gpu::Commands& commands, const LightCells& of, const glm::vec3& eyeVoxel,
                         const gpu::Image& radiance, const gpu::Image& colours) const {
     const cloud::Asset& asset = of.asset();
+    const CellLayout& layout = *of.layout_;
     shared::LightFieldPush values = of.push();
     values.eye = eyeVoxel;
     values.voxelToWorld = glm::mat3(asset.voxelToMetres);
-    values.occupied = of.lit_.occupied;
-    values.lit = static_cast<std::uint32_t>(of.lit_.numbers.size());
+    values.occupied = layout.lit.occupied;
+    values.lit = static_cast<std::uint32_t>(layout.lit.numbers.size());
     commands.pass("light field");
     commands.dispatch(of.cellsProgram_,
                       {{"density", *asset.density, gpu::Sampler::nearest},
@@ -144,13 +133,13 @@ void LightField::record(gpu::Commands& commands, const LightCells& of, const glm
                        {"colours", colours},
                        {"counts", of.counts_},
                        {"cells", cells_},
-                       {"LitCells", of.litCells_}},
-                      values, gpu::linearGroups(of.lit_.occupied, 64));
+                       {"LitCells", layout.litCells}},
+                      values, gpu::linearGroups(layout.lit.occupied, 64));
     commands.barrier("light cells");
     commands.dispatch(
         of.smoothProgram_,
-        {{"cells", cells_}, {"ownShare", of.ownShare_}, {"lightField", image_}, {"LitCells", of.litCells_}}, values,
-        gpu::linearGroups(of.lit_.numbers.size(), 64));
+        {{"cells", cells_}, {"ownShare", of.ownShare_}, {"lightField", image_}, {"LitCells", layout.litCells}}, values,
+        gpu::linearGroups(layout.lit.numbers.size(), 64));
 }
 
 }  // namespace lumulus::light

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 
 #include "cloud/asset.h"
 #include "gpu/commands.h"
-#include "light/lit_cells.h"
+#include "light/cell_layout.h"
 #include "shared/draw.h"
 
 namespace lumulus::light {
@@ -22,12 +23,15 @@ struct CollisionEstimates {
     double moment = 0.0;       ///< of the phase function, of band 1
 };
 
-/// What the light field of a cloud needs whatever the view: which cells are looked up (LitCells), and what photons
+/// What the light field of a cloud needs whatever the view: which cells are looked up (CellLayout), and what photons
 /// counted in them against the collectors' fluences. Collectors drawn one by one would show as blocks, and their noise
 /// as grain.
 class LightCells {
   public:
-    /// The cells of `estimates` are those of `grid` or finer. `asset` must outlive it.
+    /// The cells of `estimates` are those of the layout, which is of the asset, or finer. `asset` must outlive it.
+    LightCells(gpu::Context& context, const cloud::Asset& asset, std::shared_ptr<const CellLayout> layout,
+               const cloud::CellGrid& estimates);
+    /// The same with a layout of its own.
     LightCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
                const cloud::CellGrid& estimates);
 
@@ -35,22 +39,19 @@ class LightCells {
     void recordCounts(gpu::Commands& commands, const gpu::Image& fluences, const CollisionEstimates& estimates) const;
 
     const cloud::Asset& asset() const { return *asset_; }
-    const cloud::CellGrid& grid() const { return grid_; }
+    const cloud::CellGrid& grid() const { return layout_->grid; }
 
   private:
     friend class LightField;
 
-    LitCells findLitCells(gpu::Context& context) const;
     shared::LightFieldPush push() const;
 
     const cloud::Asset* asset_;
-    cloud::CellGrid grid_, estimatorGrid_;
-    gpu::Program<shared::LightFieldPush> massProgram_;
+    std::shared_ptr<const CellLayout> layout_;
+    cloud::CellGrid estimatorGrid_;
     gpu::Program<shared::LightCountsPush> countsProgram_;
     gpu::Program<shared::LightFieldPush> cellsProgram_, smoothProgram_;
-    gpu::Image mass_, counts_, ownShare_;
-    LitCells lit_;
-    gpu::Buffer litCells_;
+    gpu::Image counts_, ownShare_;
 };
 
 /// In-scattered radiance towards one eye as a smooth field: the collectors' values on a grid of cells, scaled and

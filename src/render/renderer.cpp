@@ -77,6 +77,8 @@ Renderer::Renderer(const scene::Scene& scene, const Renderer& other, const Rende
     const Stopwatch preparing;
     s.world.emplace(makeWorldBeside(s.context, scene, *other.state_->world,
                                     {options.keepRing, options.progressive, s.report, {}, s.check}));
+    for (std::size_t i = 0; i < s.world->light.size(); ++i)
+        s.world->light[i].layouts = other.state_->world->light[i].layouts;
     s.statistics.warnings = other.state_->statistics.warnings;
     s.statistics.clouds = other.state_->statistics.clouds;
     s.makePainters(scene);
@@ -104,8 +106,9 @@ void Renderer::traceGeneration() {
 bool Renderer::traceGeneration(const CutOff& cutOff) {
     State& s = *state_;
     const Stopwatch watch;
+    s.tracesLightOfNow = true;
     const bool finished = traceAll(*s.world, cutOff);
-    if (finished) ++s.sinceChange;
+    if (finished && s.tracesLightOfNow) ++s.sinceChange;
     s.statistics.traceSeconds += watch.seconds();
     return finished;
 }
@@ -243,6 +246,7 @@ Generations Renderer::generations() const {
 void Renderer::State::lightChanged() {
     assert(keepRing);
     sinceChange = 0;
+    tracesLightOfNow = false;
 }
 
 bool Renderer::setSun(const glm::dvec3& directionTo, const glm::dvec3& irradiance) {

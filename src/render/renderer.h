@@ -101,7 +101,8 @@ class Renderer {
     /// Generations that the scene asks for (0 where no photon is needed).
     int generationsWanted() const;
     /// Traces one generation into the oldest slot of the ring of every cloud. Where `check` throws between two rounds
-    /// of photons and there is a ring, the light of before stays.
+    /// of photons and there is a ring, the light of before stays. With a ring, `check` may draw pictures and change the
+    /// light between two rounds: pictures show the light of before, and the generation has that with which it began.
     void traceGeneration();
     /// The same, unless `cutOff` ends it between two rounds of photons. Returns false then: what was traced is dropped,
     /// and the light of before stays, with a ring or without.

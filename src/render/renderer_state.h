@@ -37,8 +37,9 @@ struct Renderer::State {
     std::optional<Painter> painter;
     std::optional<fog::Fog> fog;
     std::optional<GroundView> ground;
-    int sunAllowed = 1;   ///< reduction of shadow volumes
-    int sinceChange = 0;  ///< generations under the light of now
+    int sunAllowed = 1;             ///< reduction of shadow volumes
+    int sinceChange = 0;            ///< generations under the light of now
+    bool tracesLightOfNow = false;  ///< the generation that is traced is one of them
     bool keepRing;
     Statistics statistics;
 

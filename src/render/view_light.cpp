@@ -12,7 +12,7 @@ void makeRoom(gpu::Context& context, const cloud::Asset& asset, light::InstanceL
     const cloud::CellGrid grid = light::lightGrid(asset, photons);
     if (!light.cells || !(grid == light.cells->grid())) {
         light.cells.reset();
-        light.cells.emplace(context, asset, grid, light.estimatorGrid);
+        light.cells.emplace(context, asset, light.layouts->of(context, asset, grid), light.estimatorGrid);
         light.changed();
     }
     if (seen.field && grid == seen.field->grid()) return;

@@ -27,7 +27,7 @@ float densityOf(vdb::DensityFormat format, const std::byte* texel) {
 
 std::shared_ptr<const query::BrickField> readBack(gpu::Context& context, const cloud::Asset& asset,
                                                   const Check& check) {
-    const auto texels = gpu::download<std::byte>(context, asset.density);
+    const auto texels = gpu::download<std::byte>(context, *asset.density);
     const std::size_t bytes = vdb::texelBytes(asset.format);
     vdb::Volume volume;
     volume.size = asset.size;

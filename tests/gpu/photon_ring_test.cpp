@@ -133,6 +133,36 @@ TEST_F(PhotonRing, ACutOffGenerationLeavesNothing) {
     }
 }
 
+/// However short rounds are, a generation has the same bits. Between two of them a ring has the light of before.
+TEST_F(PhotonRing, ShortRoundsHaveTheSameBitsAndShowTheLightOfBefore) {
+    medium = test::mediumOf({.extinction = 20.0, .phase = {.g = 0.0}, .bands = bands});
+    PhotonMap* seen = nullptr;
+    std::vector<std::vector<double>> between;
+    Options wanted = test::mapOptions(2000, slots, bands);
+    wanted.check = [&] {
+        if (seen != nullptr) between.push_back(watts(seen->light()));
+    };
+    PhotonMap map(context, cloud, medium, wanted), other(context, cloud, medium, test::mapOptions(2000, slots, bands));
+    for (int generation = 0; generation < 3; ++generation) {
+        const std::vector<double> before = watts(map.light());
+        const double powerBefore = map.photonPower();
+        between.clear();
+        seen = &map;
+        int asked = 0;
+        EXPECT_TRUE(
+            map.tryTrace(sunAt(generation), skyAt(0), {{}, false, [&] { return ++asked % 2 == 0 ? 1e-9 : 1e-3; }}));
+        seen = nullptr;
+        EXPECT_GT(asked, 5);
+        EXPECT_EQ(map.photonPower(), powerBefore);
+        EXPECT_THAT(between, testing::SizeIs(testing::Ge(5)));
+        EXPECT_THAT(between, testing::Each(before));
+        map.keep();
+        other.trace(sunAt(generation), skyAt(0));
+        EXPECT_EQ(map.downloadSum(), other.downloadSum());
+        EXPECT_EQ(map.counters().events, other.counters().events);
+    }
+}
+
 /// What ends a walk by an exception does not hurt the light of a ring either, as when a client has gone.
 TEST_F(PhotonRing, AnExceptionBetweenRoundsLeavesTheLightOfBefore) {
     medium = test::mediumOf({.extinction = 20.0, .phase = {.g = 0.0}, .bands = bands});

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "render/renderer.h"
 #include "support/small_scene.h"
@@ -47,6 +49,46 @@ TEST(RendererBeside, HasLightOfItsOwn) {
     const LayeredImage last = second.draw();
     first.reset();
     EXPECT_EQ(second.draw().layers, last.layers) << "the clouds outlive the renderer that loaded them";
+}
+
+/// Between the rounds of a generation pictures can be drawn, which show the light of before, and light can change: the
+/// generation does not count as one of the new light then.
+TEST(RendererBeside, PicturesAndChangesBetweenRounds) {
+    const scene::Scene scene = test::smallScene();
+    Renderer* between = nullptr;
+    std::vector<LayeredImage> drawn;
+    RendererOptions options = withRing();
+    options.check = [&] {
+        if (Renderer* renderer = std::exchange(between, nullptr)) {
+            drawn.push_back(renderer->draw());
+            between = drawn.size() < 3 ? renderer : nullptr;
+        }
+    };
+    Renderer renderer(scene, options), other(scene, withRing());
+    CutOff shortRounds;
+    shortRounds.roundSeconds = [] { return 1e-9; };
+    for (Renderer* each : {&renderer, &other}) each->traceGeneration();
+    const LayeredImage before = other.draw();
+    between = &renderer;
+    ASSERT_TRUE(renderer.traceGeneration(shortRounds));
+    ASSERT_EQ(drawn.size(), 3U);
+    for (const LayeredImage& picture : drawn) EXPECT_EQ(picture.layers, before.layers);
+    EXPECT_EQ(renderer.generations().current, 2);
+    other.traceGeneration();
+    EXPECT_EQ(renderer.draw().layers, other.draw().layers);
+
+    shortRounds.roundSeconds = [&] {
+        renderer.setSun({0.0, 1.0, 0.0}, {9.0, 9.0, 9.0});
+        return 1e-9;
+    };
+    ASSERT_TRUE(renderer.traceGeneration(shortRounds));
+    EXPECT_EQ(renderer.generations().current, 0) << "the light has changed while it was traced";
+    ASSERT_TRUE(renderer.traceGeneration(CutOff{}));
+    EXPECT_EQ(renderer.generations().current, 1);
+    other.traceGeneration();
+    other.setSun({0.0, 1.0, 0.0}, {9.0, 9.0, 9.0});
+    other.traceGeneration();
+    EXPECT_EQ(renderer.draw().layers, other.draw().layers) << "a generation has the sun with which it began";
 }
 
 }  // namespace

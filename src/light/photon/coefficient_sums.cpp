@@ -152,11 +152,11 @@ double CoefficientSums::unsettledUnit() const {
 
 /// Whether `generation_` is what the sum would become, bit by bit.
 bool CoefficientSums::isAllUnsettled() const {
-    return unsettled_ && !sum_ && !split_ && shiftOf(*unsettled_) >= 0;
+    return unsettled_ && !sum_ && !split_ && !waitsForRing() && shiftOf(*unsettled_) >= 0;
 }
 
 void CoefficientSums::settle() {
-    if (!isAllUnsettled()) settleAll();
+    if (!isAllUnsettled() && !waitsForRing()) settleAll();
 }
 
 void CoefficientSums::settleAll() {

@@ -41,7 +41,8 @@ class CoefficientSums {
     /// Whether a generation has begun that is neither kept nor dropped.
     bool hasBegun() const { return begun_.has_value(); }
 
-    /// Adds what was traced to the sum, unless the sum would be a copy of the one buffer that holds it all.
+    /// Adds what was traced to the sum, unless the sum would be a copy of the one buffer that holds it all. In a ring
+    /// that is done already: it does not count a generation that has begun.
     void settle();
     /// The same, whatever the sum would be.
     void settleAll();
@@ -66,6 +67,8 @@ class CoefficientSums {
         std::uint64_t recordsBefore = 0;
     };
 
+    /// Whether a ring does not count yet what `generation_` holds.
+    bool waitsForRing() const { return keepRing_ && begun_; }
     void makeRoom(int unitExponent);
     bool nextIsOdd() const { return split_ && kept_ % 2 == 1; }
     gpu::Buffer& target() { return nextIsOdd() ? oddGeneration_ : generation_; }

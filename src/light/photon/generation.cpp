@@ -37,6 +37,10 @@ constexpr unsigned leastCores = 2, mostCores = 16;
 constexpr std::uint32_t sortRows = 16;
 /// Steps of an invocation in one round: a round ends within tenths of a second, so that work can end between two.
 constexpr std::uint32_t stepLimit = 1U << 13U;
+/// The same of a round that may not last long, while nothing is known of the cloud, and the fewest of any round.
+constexpr std::uint32_t firstSteps = 128, fewestSteps = 16;
+/// A round of few photons that are left may have this many times as many steps.
+constexpr double mostTailSteps = 16.0;
 /// Seconds after which the next rounds of a generation get fewer steps.
 constexpr double longRound = 0.08;
 /// A photon that collides more often is counted as lost. Optical depth 1e6 with albedo 1 stays below it.
@@ -172,12 +176,22 @@ void GenerationTracer::recordSort(const shared::GatherPush& push) {
     commands_.barrier("sorted records");
 }
 
-/// Divides the steps of a round by two: between rounds work can be cut off. Photons go the same ways, however many
+/// Chooses the steps of the next round: between rounds work can be cut off. Photons go the same ways, however many
 /// steps a round has.
-void GenerationTracer::shortenRounds() {
-    constexpr std::uint32_t fewest = 16;
+void GenerationTracer::planRound(const CutOff& cutOff, std::uint32_t pending) {
+    if (!cutOff.roundSeconds) return;
+    double steps = stepSeconds_ > 0.0 ? cutOff.roundSeconds() / stepSeconds_ : firstSteps;
+    if (pending > 0) steps *= std::min(mostTailSteps, static_cast<double>(invocations_) / pending);
+    params_.mapped<shared::TraceParams>()[0].stepLimit =
+        static_cast<std::uint32_t>(std::clamp(steps, static_cast<double>(fewestSteps), static_cast<double>(stepLimit)));
+}
+
+/// Learns from a round that took so many seconds and left so many invocations with photons to go on with. Where most
+/// have none left, steps are cheaper than those of the next generation will be.
+void GenerationTracer::learnRound(double seconds, std::uint32_t pending) {
     std::uint32_t& steps = params_.mapped<shared::TraceParams>()[0].stepLimit;
-    steps = std::max(fewest, steps / 2);
+    if (2 * pending > invocations_) stepSeconds_ = std::max(seconds / steps, 0.5 * stepSeconds_);
+    if (seconds > longRound) steps = std::max(fewestSteps, steps / 2);
 }
 
 void GenerationTracer::round(const gpu::Buffer& coefficients) {
@@ -225,11 +239,13 @@ bool GenerationTracer::trace(const Emission& emission, const scene::Sun& sun, do
     const shared::TraceCounters& c = counters_.mapped<shared::TraceCounters>()[0];
     std::uint64_t ended = 0;
     counters.emitted += options_.photonsPerGeneration;
+    counters_.mapped<shared::TraceCounters>()[0].pending = 0;
     do {
         options_.check();
+        planRound(cutOff, c.pending);
         const Stopwatch watch;
         round(coefficients);
-        if (watch.seconds() > longRound) shortenRounds();
+        learnRound(watch.seconds(), c.pending);
         log.add(commands_);
         counters.events += c.events;
         counters.nulls += c.nulls;

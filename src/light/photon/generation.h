@@ -64,11 +64,13 @@ class GenerationTracer {
     shared::AirPlace airPlace_{};
     glm::mat3 skyAxes_{1.0F};
     gpu::Commands commands_;
+    double stepSeconds_ = 0.0;  ///< of a round, for each step that its invocations may take
 
     shared::TraceParams traceParams(const Emission& emission, const scene::Sun& sun, double extinction,
                                     int unitExponent, std::uint32_t number) const;
     void recordSort(const shared::GatherPush& push);
-    void shortenRounds();
+    void planRound(const CutOff& cutOff, std::uint32_t pending);
+    void learnRound(double seconds, std::uint32_t pending);
     void round(const gpu::Buffer& coefficients);
 };
 

@@ -7,6 +7,7 @@
 #include <glm/gtx/component_wise.hpp>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
@@ -69,6 +70,12 @@ std::uint32_t coefficientsOf(const gpu::Context& context, std::uint32_t collecto
     return static_cast<std::uint32_t>(generationBytes(size) / sizeof(std::int64_t));
 }
 
+/// What lit a generation.
+struct Lit {
+    double flux = 0.0;             // luminance [W]
+    glm::dvec3 sunDirection{0.0};  // of travel
+};
+
 }  // namespace
 
 struct PhotonMap::State {
@@ -87,20 +94,18 @@ struct PhotonMap::State {
     Buffer moments, places, axisTable;
     gpu::Image fluences, colours, radiance;
 
-    double flux = 0.0;             // luminance of the newest generation's light [W]
-    glm::dvec3 sunDirection{0.0};  // of travel, of the newest generation's sun
-    Counters counters;             // of all generations, also those that were dropped
+    Lit newest;         // of the generations that count
+    Counters counters;  // of all generations, also those that were dropped
     PassLog log;
     std::deque<double> ringExtinctions;  // of the generations in the ring, over the medium's
-    double newExtinction = 0.0;          // of the generation that waits for keep() or drop()
 
-    /// What drop() goes back to.
-    struct Before {
-        double flux;
-        glm::dvec3 sunDirection;
-        Counters counters;
+    /// A generation that waits for keep() or drop(). Pictures show the light of before until then.
+    struct Begun {
+        Lit lit;
+        double extinction;
+        Counters countersBefore;  // what drop() goes back to
     };
-    std::optional<Before> before;
+    std::optional<Begun> begun;
 
     int unitExponentFor(const Emission& emission, const scene::Sun& sun);
     bool traceLit(const Emission& emission, const scene::Sun& sun, const CutOff& cutOff);
@@ -141,7 +146,7 @@ int PhotonMap::State::unitExponentFor(const Emission& emission, const scene::Sun
 bool PhotonMap::State::traceLit(const Emission& emission, const scene::Sun& sun, const CutOff& cutOff) {
     const int unitExponent = unitExponentFor(emission, sun);
     const Buffer& into = sums.begin(unitExponent, static_cast<bool>(cutOff.due));
-    return tracer.trace(emission, sun, newExtinction, unitExponent, static_cast<std::uint32_t>(sums.kept()), into,
+    return tracer.trace(emission, sun, begun->extinction, unitExponent, static_cast<std::uint32_t>(sums.kept()), into,
                         counters, sums.records(), log, cutOff);
 }
 
@@ -165,13 +170,12 @@ void PhotonMap::trace(const scene::Sun& sun, const sky::Environment& environment
 bool PhotonMap::tryTrace(const scene::Sun& sun, const sky::Environment& environment, const CutOff& cutOff,
                          std::optional<double> extinction, const AirLight* air) {
     State& s = *state_;
-    s.newExtinction = extinction.value_or(s.medium.extinction);
     const glm::dmat3& faces = s.tracer.faceArea();
     const Emission emission = air != nullptr ? makeEmission(sun, *air, faces) : makeEmission(sun, environment, faces);
     if (air != nullptr) s.tracer.setAir(*air);
-    s.before = State::Before{s.flux, s.sunDirection, s.counters};
-    s.flux = luminance(emission.sunFlux + emission.skyFlux);
-    s.sunDirection = -sun.directionTo;
+    s.begun = State::Begun{{luminance(emission.sunFlux + emission.skyFlux), -sun.directionTo},
+                           extinction.value_or(s.medium.extinction),
+                           s.counters};
     if (emission.dark()) {
         s.sums.beginDark();
         return true;
@@ -188,20 +192,19 @@ bool PhotonMap::tryTrace(const scene::Sun& sun, const sky::Environment& environm
 
 void PhotonMap::keep() {
     State& s = *state_;
+    const State::Begun begun = *std::exchange(s.begun, std::nullopt);
     s.sums.keep();
-    s.before.reset();
-    s.ringExtinctions.push_back(s.newExtinction / s.medium.extinction);
+    s.newest = begun.lit;
+    s.ringExtinctions.push_back(begun.extinction / s.medium.extinction);
     if (s.options.keepRing && s.sums.kept() > s.options.generations) s.ringExtinctions.pop_front();
 }
 
 void PhotonMap::drop() {
     State& s = *state_;
     s.sums.drop();
-    if (!s.before) return;
-    s.flux = s.before->flux;
-    s.sunDirection = s.before->sunDirection;
-    s.counters = s.before->counters;
-    s.before.reset();
+    if (!s.begun) return;
+    s.counters = s.begun->countersBefore;
+    s.begun.reset();
 }
 
 std::uint64_t PhotonMap::shrinkGenerations(std::uint64_t divisor, std::uint64_t fewest) {
@@ -230,7 +233,7 @@ void PhotonMap::reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, 
     push.scale = static_cast<float>(light.unit);
     push.eye = eyeVoxel;
     push.voxelToWorld = glm::mat3(s.cloud.voxelToMetres);
-    push.sunDirection = glm::vec3(s.sunDirection);
+    push.sunDirection = glm::vec3(s.newest.sunDirection);
     push.axisBase = estimatorBase() + shared::estimatorCounts(s.options.estimates.cells);
     push.angleScale = s.medium.tables.angleScale;
     commands.pass("reconstruct");
@@ -270,7 +273,7 @@ std::uint32_t PhotonMap::estimatorBase() const {
 }
 double PhotonMap::photonPower() const {
     const double photons = static_cast<double>(state_->options.photonsPerGeneration) * std::max(1, generationsInRing());
-    return state_->flux / photons;
+    return state_->newest.flux / photons;
 }
 std::uint64_t PhotonMap::firstInRing() const {
     return state_->options.firstGeneration + static_cast<std::uint64_t>(state_->sums.kept() - generationsInRing());

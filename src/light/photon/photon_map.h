@@ -79,7 +79,8 @@ class PhotonMap {
     void trace(const scene::Sun& sun, const sky::Environment& environment, std::optional<double> extinction = {});
 
     /// Traces one generation that `cutOff` may end. Returns whether it was finished; else nothing is left of it. A
-    /// finished one waits for keep() or drop(), and the map has the light of before until then. Without a ring, the
+    /// finished one waits for keep() or drop(), and the map has the light of before until then: one with a ring also
+    /// between the rounds, so that pictures may be drawn in `check` and in what `cutOff` asks. Without a ring, the
     /// first that may be cut off beside others takes the memory of one generation more until they are settled. `air`:
     /// the light of an atmosphere in the cloud, for a map that was made for it; `sun` then has the most that reaches
     /// it.

@@ -1,0 +1,55 @@
+#include "light/cell_layout.h"
+
+#include <algorithm>
+
+#include "gpu/commands.h"
+#include "gpu/groups.h"
+#include "gpu/program.h"
+#include "gpu/transfer.h"
+#include "shared/draw.h"
+
+namespace lumulus::light {
+
+namespace {
+
+namespace spirv {
+#include "spirv/light/light_mass.comp.h"
+}  // namespace spirv
+
+/// Fills the mass of each cell.
+LitCells findLitCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
+                      const gpu::Image& mass) {
+    const gpu::Program<shared::LightFieldPush> program(context, "light_mass", spirv::light_mass_comp,
+                                                       {asset.sparseConstant()});
+    shared::LightFieldPush push{};
+    push.size = asset.size;
+    push.grid = grid.cells;
+    push.edge = grid.edge;
+    gpu::Commands commands(context);
+    commands.begin();
+    commands.dispatch(program,
+                      {{"density", *asset.density, gpu::Sampler::linear},
+                       {"bricks", asset.brickIndex(), gpu::Sampler::nearest},
+                       {"cellMass", mass}},
+                      push, gpu::linearGroups(grid.count(), 64));
+    commands.submit();
+    commands.wait();
+    return litCells(grid.cells, gpu::download<float>(context, mass));
+}
+
+}  // namespace
+
+CellLayout::CellLayout(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& cells)
+    : grid(cells),
+      mass(context, "light cell mass", grid.cells, VK_FORMAT_R32_SFLOAT),
+      lit(findLitCells(context, asset, grid, mass)),
+      litCells(gpu::filledBuffer(context, "lit cells", lit.numbers)) {}
+
+std::shared_ptr<const CellLayout> CellLayouts::of(gpu::Context& context, const cloud::Asset& asset,
+                                                  const cloud::CellGrid& grid) {
+    const auto known = std::ranges::find_if(known_, [&](const auto& layout) { return layout->grid == grid; });
+    if (known != known_.end()) return *known;
+    return known_.emplace_back(std::make_shared<const CellLayout>(context, asset, grid));
+}
+
+}  // namespace lumulus::light

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cloud/asset.h"
+#include "gpu/context.h"
+#include "gpu/memory.h"
+#include "light/lit_cells.h"
+
+namespace lumulus::light {
+
+/// What the cells of a light field have of the cloud, whatever the light: their masses, and which of them are looked
+/// up. It takes as long to find as a picture takes.
+struct CellLayout {
+    CellLayout(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& cells);
+
+    cloud::CellGrid grid;
+    gpu::Image mass;  ///< of each cell: ∫ normalised density [voxels]
+    LitCells lit;
+    gpu::Buffer litCells;  ///< its numbers
+};
+
+/// The layouts of one cloud that were needed so far: each is found once for all lights of the cloud. They are as many
+/// as there are sizes of cells, a few. Not for several threads.
+class CellLayouts {
+  public:
+    /// `asset`: the same one each time.
+    std::shared_ptr<const CellLayout> of(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid);
+
+  private:
+    std::vector<std::shared_ptr<const CellLayout>> known_;
+};
+
+}  // namespace lumulus::light
