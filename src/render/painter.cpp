@@ -20,15 +20,6 @@ Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& d
       phase_(makePhaseTables(context, world, features_.grey, phaseTables_)),
       none_(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT),
       noSquares_(draw::noSquares(context)) {
-    if (features_.many) {
-        densities_.emplace(context, "density atlas", densitiesOf(world), densityFormat(world));
-        majorants_.emplace(context, "majorant atlas", majorantsOf(world), VK_FORMAT_R32_SFLOAT);
-        GpuWork work(context);
-        work.run([&](gpu::Commands& commands) {
-            densities_->record(commands, densitiesOf(world));
-            majorants_->record(commands, majorantsOf(world));
-        });
-    }
     if (draw.mode == scene::DrawMode::billboards)
         billboards_.emplace(context, instancesOf(world), features_);
     else
@@ -63,7 +54,8 @@ Tile Painter::shownPart(const World& world, const ViewState::State& view) const 
 
 draw::Volumes Painter::volumes(const World& world, const ViewState::State& view) const {
     if (features_.many)
-        return {densities_->image(), majorants_->image(), view.lightFields ? view.lightFields->image() : none_,
+        return {world.sharedVolumes->densities.image(), world.sharedVolumes->majorants.image(),
+                view.lightFields ? view.lightFields->image() : none_,
                 world.sharedShadow ? world.sharedShadow->image() : none_};
     const std::size_t only = visible_.front();
     const cloud::Asset& asset = *world.instances[only].asset;
@@ -86,8 +78,8 @@ shared::InstanceParams Painter::instanceParams(const World& world, const ViewSta
         params.shadowOffset = light.shadow->textureOffset();
     }
     if (!features_.many) return params;
-    params.densityOrigin = glm::vec3(densities_->origin(place));
-    params.cellOrigin = majorants_->origin(place);
+    params.densityOrigin = glm::vec3(world.sharedVolumes->densities.origin(place));
+    params.cellOrigin = world.sharedVolumes->majorants.origin(place);
     if (view.lightFields) {
         params.lightOrigin = glm::vec3(view.lightFields->origin(place));
         const auto& field = view.instances[number].field;
@@ -108,7 +100,7 @@ shared::DrawParams Painter::drawParams(const World& world, const ViewState::Stat
     values.light = draw::lightParams(world.lights.sun);
     values.environment = world.lights.environment.params();
     if (features_.many) {
-        values.atlas.density = densities_->inverseSize();
+        values.atlas.density = world.sharedVolumes->densities.inverseSize();
         if (view.lightFields) values.atlas.light = view.lightFields->inverseSize();
         if (world.sharedShadow) values.atlas.shadow = world.sharedShadow->inverseSize();
     }

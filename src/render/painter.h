@@ -56,7 +56,6 @@ class Painter {
     draw::PhaseTables phase_;
     std::optional<draw::Billboards> billboards_;
     std::optional<draw::March> march_;
-    std::optional<cloud::Atlas> densities_, majorants_;  ///< where several instances are drawn
     gpu::Image none_;  ///< stands for what the scene does not have: shaders never read it, but bindings must be there
     gpu::Buffer noSquares_;
 };
