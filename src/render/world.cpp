@@ -26,6 +26,20 @@ phase::ScatteringMedium makeMedium(const scene::Scene& scene, const scene::Cloud
     return medium;
 }
 
+/// Where the instances are now, and what of the sun's light reaches them.
+std::vector<photon::Placement> placements(const World& world, const std::vector<std::size_t>& visible) {
+    std::vector<photon::Placement> places;
+    for (const std::size_t i : visible) {
+        const cloud::Instance& instance = world.instances[i];
+        const glm::dvec3 &reaching = world.light[i].sun.irradiance, &whole = world.lights.sun.irradiance;
+        photon::Placement place{instance.origin + instance.offset, instance.medium.extinction, glm::dvec3(1.0)};
+        for (int channel = 0; channel < 3; ++channel)
+            if (whole[channel] > 0.0) place.sunShare[channel] = reaching[channel] / whole[channel];
+        places.push_back(place);
+    }
+    return places;
+}
+
 /// Makes a world step by step.
 class Maker {
   public:
@@ -222,6 +236,7 @@ void Maker::makePhotonMap(const std::vector<std::size_t>& visible) {
     }
     if (visible.size() > 1) {
         world_.photons.emplace(context_, std::move(parts), *world_.sharedVolumes, options);
+        world_.photons->place(placements(world_, visible));
         return;
     }
     const photon::MapPart& only = parts.front();
@@ -242,24 +257,6 @@ std::vector<std::size_t> World::visible() const {
 bool World::hasShadows() const {
     return std::ranges::any_of(light, [](const light::InstanceLight& l) { return l.shadow.has_value(); });
 }
-
-namespace {
-
-/// Where the instances are now, and what of the sun's light reaches them.
-std::vector<photon::Placement> placements(const World& world, const std::vector<std::size_t>& visible) {
-    std::vector<photon::Placement> places;
-    for (const std::size_t i : visible) {
-        const cloud::Instance& instance = world.instances[i];
-        const glm::dvec3 &reaching = world.light[i].sun.irradiance, &whole = world.lights.sun.irradiance;
-        photon::Placement place{instance.origin + instance.offset, instance.medium.extinction, glm::dvec3(1.0)};
-        for (int channel = 0; channel < 3; ++channel)
-            if (whole[channel] > 0.0) place.sunShare[channel] = reaching[channel] / whole[channel];
-        places.push_back(place);
-    }
-    return places;
-}
-
-}  // namespace
 
 World makeWorld(gpu::Context& context, const scene::Scene& scene, const WorldOptions& options, WorldReport& report) {
     return Maker(context, scene, options, report).make();

@@ -13,6 +13,7 @@
 #include "shared/fog_layers.h"
 #include "shared/frame.h"
 #include "shared/photon.h"
+#include "shared/world.h"
 #include "support/struct_layout.h"
 
 namespace lumulus::test {

@@ -188,6 +188,7 @@ PhotonMap::PhotonMap(gpu::Context& context, std::vector<MapPart> parts, const cl
 
 void PhotonMap::place(std::span<const Placement> places) {
     State& s = *state_;
+    if (std::ranges::equal(places, s.places)) return;
     s.walk->place(places);
     s.places.assign(places.begin(), places.end());
     s.placeCollectors();

@@ -85,7 +85,8 @@ class PhotonMap {
     /// first that may be cut off beside others takes the memory of one generation more until they are settled.
     bool tryTrace(const scene::Sun& sun, const sky::Environment& environment, const CutOff& cutOff,
                   std::optional<double> extinction = {});
-    /// Where the instances are from now on, one for each part; before the first generation of a map of several.
+    /// Where the instances are from now on, one for each part. A map of several needs it
+    /// before all else.
     void place(std::span<const Placement> places);
     /// Takes the generation of tryTrace() into the oldest slot.
     void keep();
