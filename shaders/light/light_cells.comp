@@ -33,7 +33,7 @@ void main() {
                 const ivec3 voxel = EDGE * cell + ivec3(x, y, z);
                 const float mass = densityOf(density, voxel, push.size);
                 if (mass > 0.0) {
-                    const uint collector = collectorOf(collectorIndex, voxel, push.size);
+                    const uint collector = push.firstCollector + collectorOf(collectorIndex, voxel, push.size);
                     light += mass * imageLoad(radiance, collectorTexel(collector));
                     colour += mass * imageLoad(colours, collectorTexel(collector)).rgb;
                 }

@@ -79,7 +79,7 @@ void main() {
                 const ivec3 voxel = EDGE * cell + ivec3(x, y, z);
                 const float here = densityOf(density, voxel, push.size);
                 if (here > 0.0) {
-                    const uint collector = collectorOf(collectorIndex, voxel, push.size);
+                    const uint collector = push.firstCollector + collectorOf(collectorIndex, voxel, push.size);
                     light += here * imageLoad(fluences, collectorTexel(collector));
                     mass += here;
                 }

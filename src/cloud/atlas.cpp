@@ -16,8 +16,13 @@ namespace lumulus::cloud {
 namespace {
 
 namespace spirv {
+#include "spirv/cloud/copy_index.comp.h"
 #include "spirv/cloud/copy_volume.comp.h"
 }  // namespace spirv
+
+bool isInteger(VkFormat format) {
+    return format == VK_FORMAT_R16_UINT || format == VK_FORMAT_R32_UINT;
+}
 
 /// Of each volume, the place in the list where it stands first.
 std::vector<std::size_t> firstPlaces(std::span<const gpu::Image* const> volumes) {
@@ -58,7 +63,9 @@ glm::ivec3 pack(std::span<const glm::ivec3> extents, std::span<glm::ivec3> origi
 }  // namespace
 
 Atlas::Atlas(gpu::Context& context, const char* name, std::span<const gpu::Image* const> volumes, VkFormat format)
-    : program_(context, "copy_volume", spirv::copy_volume_comp) {
+    : program_(context, "copy_volume",
+               isInteger(format) ? std::span<const std::uint32_t>(spirv::copy_index_comp)
+                                 : std::span<const std::uint32_t>(spirv::copy_volume_comp)) {
     const std::vector<std::size_t> first = firstPlaces(volumes);
     std::vector<std::size_t> distinct;
     for (std::size_t i = 0; i < volumes.size(); ++i)

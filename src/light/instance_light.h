@@ -6,21 +6,19 @@
 
 #include "light/light_field.h"
 #include "light/photon/air_light.h"
-#include "light/photon/photon_map.h"
 #include "light/shadow_volume.h"
 
 namespace lumulus::light {
 
 /// The light in one instance, whatever the view. Each part exists only where the scene needs it.
 struct InstanceLight {
-    scene::Sun sun;                            ///< that reaches the instance; in an atmosphere the most of it
-    std::optional<photon::AirLight> air;       ///< where the sky is an atmosphere
-    cloud::CellGrid estimatorGrid;             ///< of the collision estimator
-    std::optional<photon::PhotonMap> photons;  ///< none where no photon would be of use
-    std::optional<ShadowVolume> shadow;        ///< none without a sun
-    int shadowReduction = 0;                   ///< of the shadow volume that is up to date (1: whole); 0: it is not
-    bool sharpening = false;                   ///< a whole shadow volume is in the making
-    std::uint64_t shadowVersion = 0;           ///< of the shadow volume that is shown
+    scene::Sun sun;                       ///< that reaches the instance; in an atmosphere the most of it
+    std::optional<photon::AirLight> air;  ///< where the sky is an atmosphere
+    std::optional<std::size_t> part;      ///< of the world's photon map; none where no photon would be of use
+    std::optional<ShadowVolume> shadow;   ///< none without a sun
+    int shadowReduction = 0;              ///< of the shadow volume that is up to date (1: whole); 0: it is not
+    bool sharpening = false;              ///< a whole shadow volume is in the making
+    std::uint64_t shadowVersion = 0;      ///< of the shadow volume that is shown
     std::optional<LightCells> cells;
     std::shared_ptr<CellLayouts> layouts = std::make_shared<CellLayouts>();  ///< shared by all lights of the asset
     bool counted = false;       ///< what of `cells` no view changes is up to date

@@ -52,13 +52,16 @@ cloud::CellGrid lightGrid(const cloud::Asset& cloud, std::uint64_t photons) {
 
 LightCells::LightCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
                        const cloud::CellGrid& estimates)
-    : LightCells(context, asset, std::make_shared<const CellLayout>(context, asset, grid), estimates) {}
+    : LightCells(context, asset, std::make_shared<const CellLayout>(context, asset, grid), estimates,
+                 asset.voxelToMetres, 0) {}
 
 LightCells::LightCells(gpu::Context& context, const cloud::Asset& asset, std::shared_ptr<const CellLayout> layout,
-                       const cloud::CellGrid& estimates)
+                       const cloud::CellGrid& estimates, const glm::dmat3& voxelToMetres, std::uint32_t firstCollector)
     : asset_(&asset),
       layout_(std::move(layout)),
       estimatorGrid_(estimates),
+      voxelToMetres_(voxelToMetres),
+      firstCollector_(firstCollector),
       countsProgram_(context, "light_counts", spirv::light_counts_comp,
                      {gpu::SpecConstant::of(0, grid().edge), asset.sparseConstant()}),
       cellsProgram_(context, "light_cells", spirv::light_cells_comp,
@@ -80,6 +83,8 @@ shared::LightFieldPush LightCells::push() const {
     push.size = asset_->size;
     push.grid = grid().cells;
     push.edge = grid().edge;
+    push.voxelToWorld = glm::mat3(voxelToMetres_);
+    push.firstCollector = firstCollector_;
     return push;
 }
 
@@ -100,6 +105,7 @@ void LightCells::recordCounts(gpu::Commands& commands, const gpu::Image& fluence
     values.photon = static_cast<float>(estimates.photonPower);
     values.moment = static_cast<float>(estimates.moment);
     values.occupied = layout_->lit.occupied;
+    values.firstCollector = firstCollector_;
     commands.pass("light counts");
     commands.dispatch(countsProgram_,
                       {{"density", *asset_->density, gpu::Sampler::nearest},
@@ -121,7 +127,6 @@ void LightField::record(gpu::Commands& commands, const LightCells& of, const glm
     const CellLayout& layout = *of.layout_;
     shared::LightFieldPush values = of.push();
     values.eye = eyeVoxel;
-    values.voxelToWorld = glm::mat3(asset.voxelToMetres);
     values.occupied = layout.lit.occupied;
     values.lit = static_cast<std::uint32_t>(layout.lit.numbers.size());
     commands.pass("light field");

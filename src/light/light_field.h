@@ -28,10 +28,12 @@ struct CollisionEstimates {
 /// as grain.
 class LightCells {
   public:
-    /// The cells of `estimates` are those of the layout, which is of the asset, or finer. `asset` must outlive it.
+    /// Of an instance whose voxels have these edges in the world [m], and whose collectors begin with this number among
+    /// those of all instances. The cells of `estimates` are those of the layout, which is of the asset, or finer.
+    /// `asset` must outlive it.
     LightCells(gpu::Context& context, const cloud::Asset& asset, std::shared_ptr<const CellLayout> layout,
-               const cloud::CellGrid& estimates);
-    /// The same with a layout of its own.
+               const cloud::CellGrid& estimates, const glm::dmat3& voxelToMetres, std::uint32_t firstCollector);
+    /// The same of the only instance, with a layout of its own.
     LightCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
                const cloud::CellGrid& estimates);
 
@@ -49,6 +51,8 @@ class LightCells {
     const cloud::Asset* asset_;
     std::shared_ptr<const CellLayout> layout_;
     cloud::CellGrid estimatorGrid_;
+    glm::dmat3 voxelToMetres_;
+    std::uint32_t firstCollector_;
     gpu::Program<shared::LightCountsPush> countsProgram_;
     gpu::Program<shared::LightFieldPush> cellsProgram_, smoothProgram_;
     gpu::Image counts_, ownShare_;

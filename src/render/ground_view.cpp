@@ -15,8 +15,7 @@ const surface::GroundLight& GroundView::light(gpu::Context& context, World& worl
         cause.extinctions.push_back(world.instances[i].medium.extinction);
     }
     if (!light_ || !(cause == cause_)) {
-        light_.emplace(*world.lights.ground, mediaOf(context, world, check), sun,
-                       world.lights.constantSky(), check);
+        light_.emplace(*world.lights.ground, mediaOf(context, world, check), sun, world.lights.constantSky(), check);
         cause_ = std::move(cause);
     }
     return *light_;

@@ -21,18 +21,6 @@ Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& d
       none_(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT),
       noColours_(context, "no colours", glm::ivec2(1), VK_FORMAT_R32G32B32A32_SFLOAT),
       noSquares_(draw::noSquares(context)) {
-    if (features_.many) {
-        if (features_.sparse)
-            bricks_ = cloud::joinIndices(context, brickIndicesOf(world));
-        else
-            densities_.emplace(context, "density atlas", densitiesOf(world), densityFormat(world));
-        majorants_.emplace(context, "majorant atlas", majorantsOf(world), VK_FORMAT_R32_SFLOAT);
-        GpuWork work(context);
-        work.run([&](gpu::Commands& commands) {
-            if (densities_) densities_->record(commands, densitiesOf(world));
-            majorants_->record(commands, majorantsOf(world));
-        });
-    }
     if (draw.mode == scene::DrawMode::billboards)
         billboards_.emplace(context, instancesOf(world), features_);
     else
@@ -68,9 +56,9 @@ Tile Painter::shownPart(const World& world, const ViewState::State& view) const 
 draw::Volumes Painter::volumes(const World& world, const ViewState::State& view, const gpu::Image& sunColours) const {
     const cloud::Asset& first = *world.instances[visible_.front()].asset;
     if (features_.many)
-        return {bricks_ ? *first.density : densities_->image(),
-                bricks_ ? bricks_->image : first.brickIndex(),
-                majorants_->image(),
+        return {world.sharedVolumes->density(),
+                world.sharedVolumes->brickIndex(),
+                world.sharedVolumes->majorants().image(),
                 view.lightFields ? view.lightFields->image() : none_,
                 world.sharedShadow ? world.sharedShadow->image() : none_,
                 sunColours};
@@ -103,9 +91,11 @@ shared::InstanceParams Painter::instanceParams(const World& world, const ViewSta
         params.airTexel = glm::vec2(sunColourPlace(place));
     }
     if (!features_.many) return params;
-    if (densities_) params.densityOrigin = glm::vec3(densities_->origin(place));
-    if (bricks_) params.firstBrick = static_cast<int>(bricks_->first[place]);
-    params.cellOrigin = majorants_->origin(place);
+    if (features_.sparse)
+        params.firstBrick = static_cast<int>(world.sharedVolumes->place(place).x);
+    else
+        params.densityOrigin = world.sharedVolumes->place(place);
+    params.cellOrigin = world.sharedVolumes->majorants().origin(place);
     if (view.lightFields) {
         params.lightOrigin = glm::vec3(view.lightFields->origin(place));
         const auto& field = view.instances[number].field;
@@ -126,7 +116,7 @@ shared::DrawParams Painter::drawParams(const World& world, const ViewState::Stat
     values.light = draw::lightParams(world.lights.sun);
     values.environment = world.lights.environment.params();
     if (features_.many) {
-        if (densities_) values.atlas.density = densities_->inverseSize();
+        values.atlas.density = world.sharedVolumes->inverseSize();
         if (view.lightFields) values.atlas.light = view.lightFields->inverseSize();
         if (world.sharedShadow) values.atlas.shadow = world.sharedShadow->inverseSize();
     }

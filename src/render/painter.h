@@ -57,8 +57,6 @@ class Painter {
     draw::PhaseTables phase_;
     std::optional<draw::Billboards> billboards_;
     std::optional<draw::March> march_;
-    std::optional<cloud::Atlas> densities_, majorants_;  ///< where several instances are drawn
-    std::optional<cloud::JoinedIndex> bricks_;           ///< instead of densities in an atlas, where they are in bricks
     gpu::Image none_;  ///< stands for what the scene does not have: shaders never read it, but bindings must be there
     gpu::Image noColours_;
     gpu::Buffer noSquares_;

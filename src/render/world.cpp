@@ -6,8 +6,9 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
-#include "light/photon/emission.h"
+#include "light/light_field.h"
 #include "medium/fog_media.h"
+#include "render/importance.h"
 #include "view/camera.h"
 #include "volume/load.h"
 
@@ -26,10 +27,26 @@ phase::ScatteringMedium makeMedium(const scene::Scene& scene, const scene::Cloud
     return medium;
 }
 
-/// Area of the surface of an instance's box [m²]: light that fills the world falls on instances in proportion to it.
-double surfaceArea(const cloud::Instance& instance) {
-    const glm::dmat3 faces = photon::faceAreas(instance.voxelToMetres, glm::dvec3(instance.asset->size));
-    return glm::length(faces[0]) + glm::length(faces[1]) + glm::length(faces[2]);
+/// Share of the sun's light that fog lets through to an instance.
+glm::dvec3 sunThroughFog(const World& world, const cloud::Instance& instance) {
+    if (world.fog.media.empty()) return glm::dvec3(1.0);
+    return fog::sunTransmittance(world.fog, instance.bounds.centre, world.lights.sun.directionTo);
+}
+
+/// Where the instances are now, and what of the sun's light reaches them; that which air takes differs by place, and
+/// is not in it.
+std::vector<photon::Placement> placements(const World& world, const std::vector<std::size_t>& visible) {
+    std::vector<photon::Placement> places;
+    for (const std::size_t i : visible) {
+        const cloud::Instance& instance = world.instances[i];
+        const glm::dvec3 &reaching = world.light[i].sun.irradiance, &whole = world.lights.sun.irradiance;
+        photon::Placement place{instance.origin + instance.offset, instance.medium.extinction, glm::dvec3(1.0)};
+        for (int channel = 0; channel < 3; ++channel)
+            if (whole[channel] > 0.0) place.sunShare[channel] = reaching[channel] / whole[channel];
+        if (world.air) place.sunShare = sunThroughFog(world, instance);
+        places.push_back(place);
+    }
+    return places;
 }
 
 /// Makes a world step by step.
@@ -53,7 +70,7 @@ class Maker {
         world_.light.resize(world_.instances.size());
         for (std::size_t i = 0; i < placed.size(); ++i) prepare(i, placed[i]);
         findReachingLight(world_);
-        lightUpAll();
+        lightUp();
         if (!placed.empty()) report_.prepareSeconds = preparing.seconds();
         return std::move(world_);
     }
@@ -71,7 +88,7 @@ class Maker {
             instance.offset = glm::dvec3(0.0);
         }
         findReachingLight(world_);
-        lightUpAll();
+        lightUp();
         return std::move(world_);
     }
 
@@ -80,8 +97,9 @@ class Maker {
     CloudVolumes load();
     void prepare(std::size_t number, const vdb::PlacedVolume& placed);
     const cloud::Asset* findAsset(std::size_t number, const vdb::Volume* volume, double reducedExtinction) const;
-    void lightUpAll();
-    void lightUp(std::size_t number);
+    void lightUp();
+    photon::Options photonOptions() const;
+    void makePhotonMap(const std::vector<std::size_t>& visible);
 
     gpu::Context& context_;
     const scene::Scene& scene_;
@@ -138,6 +156,7 @@ void Maker::prepare(std::size_t number, const vdb::PlacedVolume& placed) {
     cloud::PrepareOptions options;
     options.preparation = scene_.preparation;
     options.majorant = scene_.photonMap.majorant;
+    options.keepBlocks = scene_.clouds.size() > 1;
     const double forward = scene_.photonMap.bands > 1 ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
     options.reducedExtinction =
         medium.extinction * static_cast<double>(medium.tables.scatterFraction) * (1.0 - forward);
@@ -156,48 +175,83 @@ void Maker::prepare(std::size_t number, const vdb::PlacedVolume& placed) {
     options_.report("preparing the cloud", 1, 1);
 }
 
-void Maker::lightUpAll() {
+/// What of the light is made beforehand.
+void Maker::lightUp() {
     const std::vector<std::size_t> visible = world_.visible();
-    for (const std::size_t i : visible) lightUp(i);
+    if (visible.size() > 1) {
+        std::vector<const cloud::Instance*> instances;
+        for (const std::size_t i : visible) instances.push_back(&world_.instances[i]);
+        world_.sharedVolumes = std::make_unique<cloud::SharedVolumes>(context_, instances);
+    }
+    bool scatters = false;
+    for (const std::size_t i : visible) {
+        const cloud::Instance& instance = world_.instances[i];
+        const bool shades = visible.size() > 1 || instance.medium.scatters();
+        scatters = scatters || instance.medium.scatters();
+        if (shades && world_.lights.hasSun())
+            world_.light[i].shadow.emplace(context_, *instance.asset, instance.voxelToMetres);
+    }
     if (visible.size() > 1 && world_.hasShadows()) world_.sharedShadow.emplace(context_);
+    if (scatters && !world_.lights.isDark()) makePhotonMap(visible);
+    stopIfInterrupted();
 }
 
-/// What of the instance's light is made beforehand. Photons are shared out by what falls on each instance.
-void Maker::lightUp(std::size_t number) {
-    const cloud::Instance& instance = world_.instances[number];
-    light::InstanceLight& light = world_.light[number];
-    const bool scatters = instance.medium.scatters();
-    if (scatters && world_.lights.hasSun()) light.shadow.emplace(context_, *instance.asset, instance.voxelToMetres);
-    if (!scatters || world_.lights.isDark()) return;
+photon::Options Maker::photonOptions() const {
     const scene::PhotonMap& wanted = scene_.photonMap;
-    double area = 0.0;
-    const std::vector<std::size_t> visible = world_.visible();
-    for (const std::size_t i : visible) area += surfaceArea(world_.instances[i]);
-    const double share = visible.size() == 1 ? 1.0 : surfaceArea(instance) / area;
     const auto generations = static_cast<std::uint64_t>(wanted.generations);
-    const auto photons = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(wanted.photons)));
+    const auto photons = static_cast<std::uint64_t>(wanted.photons);
     const std::uint64_t each = (photons + generations - 1) / generations;
     if (each > 0xF0000000ULL)
         throw InputError("a generation would hold " + std::to_string(each) + " photons, more than 4026531840",
                          "photon_map.photons", "ask for more generations or fewer photons");
-    // progressive: as fine as any number of photons may ask for
-    light.estimatorGrid =
-        light::lightGrid(*instance.asset, options_.progressive ? std::numeric_limits<std::uint64_t>::max() : photons);
     photon::Options options;
     options.photonsPerGeneration = each;
     options.generations = wanted.generations;
     options.firstGeneration = static_cast<std::uint32_t>(wanted.firstGeneration);
     options.bands = wanted.bands;
-    options.seed = wanted.seed + number;
+    options.seed = wanted.seed;
     options.keepRing = options_.keepRing;
     options.splitGenerations = options_.progressive;
-    options.estimates = light.estimatorGrid;
     options.check = options_.check;
-    options.air = light.air.has_value();
-    options.memoryBudget =
-        static_cast<std::uint64_t>(std::ldexp(wanted.memoryBudget, 20)) / static_cast<std::uint64_t>(visible.size());
-    light.photons.emplace(context_, *instance.asset, instance.medium, options);
-    stopIfInterrupted();
+    options.air = world_.lights.environment.atmosphere() != nullptr;
+    options.memoryBudget = static_cast<std::uint64_t>(std::ldexp(wanted.memoryBudget, 20));
+    return options;
+}
+
+/// One map for all that is visible. Photons are shared out by what the picture shows of each instance.
+void Maker::makePhotonMap(const std::vector<std::size_t>& visible) {
+    photon::Options options = photonOptions();
+    const std::vector<double> shares = photonShares(world_, visible, scene_, options_.keepRing);
+    std::vector<photon::MapPart> parts;
+    for (std::size_t k = 0; k < visible.size(); ++k) {
+        const cloud::Instance& instance = world_.instances[visible[k]];
+        const double photons = std::ceil(shares[k] * static_cast<double>(scene_.photonMap.photons));
+        // progressive: as fine as any number of photons may ask for
+        const std::uint64_t most = options_.progressive
+                                       ? std::numeric_limits<std::uint64_t>::max()
+                                       : std::max<std::uint64_t>(1, static_cast<std::uint64_t>(photons));
+        light::InstanceLight& light = world_.light[visible[k]];
+        photon::MapPart part;
+        part.asset = instance.asset;
+        part.medium = instance.medium;
+        part.voxelToMetres = instance.voxelToMetres;
+        part.share = shares[k];
+        part.collects = instance.medium.scatters();
+        if (part.collects) {
+            light.part = k;
+            part.estimates = light::lightGrid(*instance.asset, most);
+        }
+        parts.push_back(std::move(part));
+    }
+    if (visible.size() > 1) {
+        world_.photons.emplace(context_, std::move(parts), *world_.sharedVolumes, options);
+        world_.photons->place(placements(world_, visible));
+        return;
+    }
+    const photon::MapPart& only = parts.front();
+    options.estimates = only.estimates;
+    options.seed += visible.front();
+    world_.photons.emplace(context_, *only.asset, only.voxelToMetres, only.medium, options);
 }
 
 }  // namespace
@@ -209,13 +263,19 @@ std::vector<std::size_t> World::visible() const {
     return numbers;
 }
 
-bool World::hasPhotons() const {
-    return std::ranges::any_of(light, [](const light::InstanceLight& l) { return l.photons.has_value(); });
-}
-
 bool World::hasShadows() const {
     return std::ranges::any_of(light, [](const light::InstanceLight& l) { return l.shadow.has_value(); });
 }
+
+namespace {
+
+/// Maps of the sky above the middle of the clouds.
+const sky::SkyMaps& skyMapsOf(World& world) {
+    const glm::dvec3& middle = world.bounds.centre;
+    return world.lights.skyMaps({middle.x, world.lights.environment.atmosphere()->groundHeight(), middle.z});
+}
+
+}  // namespace
 
 World makeWorld(gpu::Context& context, const scene::Scene& scene, const WorldOptions& options, WorldReport& report) {
     return Maker(context, scene, options, report).make();
@@ -229,45 +289,46 @@ World makeWorldBeside(gpu::Context& context, const scene::Scene& scene, const Wo
 
 void findReachingLight(World& world) {
     const sky::Atmosphere* atmosphere = world.lights.environment.atmosphere();
+    const bool many = world.visible().size() > 1;
+    glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
     for (std::size_t i = 0; i < world.instances.size(); ++i) {
         const cloud::Instance& instance = world.instances[i];
         light::InstanceLight& light = world.light[i];
         light.sun = world.lights.sunAt(instance.bounds.centre, world.fog);
         if (atmosphere == nullptr || instance.asset == nullptr) continue;
-        const glm::dvec3 middle = world.bounds.centre;
         const photon::Box box{instance.origin + instance.offset, instance.voxelToMetres,
                               glm::dvec3(instance.asset->size)};
-        const sky::SkyMaps& maps = world.lights.skyMaps({middle.x, atmosphere->groundHeight(), middle.z});
-        light.air = photon::makeAirLight(*atmosphere, maps, world.lights.sun, box);
-        const glm::dvec3 inFog = world.fog.media.empty()
-                                     ? glm::dvec3(1.0)
-                                     : fog::sunTransmittance(world.fog, instance.bounds.centre, light.sun.directionTo);
-        light.sun.irradiance = world.lights.sun.irradiance * inFog * light.air->mostSun;
+        light.air = photon::makeAirLight(*atmosphere, many ? nullptr : &skyMapsOf(world), world.lights.sun, box);
+        light.sun.irradiance = world.lights.sun.irradiance * sunThroughFog(world, instance) * light.air->mostSun;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 at(corner & 1, (corner >> 1) & 1, corner >> 2);
+            const glm::dvec3 point = box.origin + box.edges * (at * box.size);
+            lower = glm::min(lower, point), upper = glm::max(upper, point);
+        }
     }
+    if (atmosphere == nullptr || !many) return;
+    const photon::Box all{lower, glm::dmat3(1.0), upper - lower};
+    world.air = photon::makeAirLight(*atmosphere, &skyMapsOf(world), world.lights.sun, all);
 }
 
 bool traceAll(World& world, const CutOff& cutOff) {
-    const auto dropAll = [&world] {
-        for (light::InstanceLight& light : world.light)
-            if (light.photons) light.photons->drop();
-        return false;
-    };
-    try {
-        for (std::size_t i = 0; i < world.light.size(); ++i) {
-            light::InstanceLight& light = world.light[i];
-            const double extinction = world.instances[i].medium.extinction;
-            if (light.photons && !light.photons->tryTrace(light.sun, world.lights.environment, cutOff, extinction,
-                                                          light.air ? &*light.air : nullptr))
-                return dropAll();
+    if (world.photons) {
+        const std::vector<std::size_t> visible = world.visible();
+        const cloud::Instance& first = world.instances[visible.front()];
+        const light::InstanceLight& only = world.light[visible.front()];
+        scene::Sun sun = world.lights.sun;
+        const photon::AirLight* air = only.air ? &*only.air : nullptr;
+        if (visible.size() > 1) {
+            world.photons->place(placements(world, visible));
+            air = world.air ? &*world.air : nullptr;
+            if (air != nullptr) sun.irradiance *= air->mostSun;
+        } else {
+            sun = only.sun;
         }
-    } catch (...) {
-        dropAll();
-        throw;
+        if (!world.photons->tryTrace(sun, world.lights.environment, cutOff, first.medium.extinction, air)) return false;
+        world.photons->keep();
     }
-    for (light::InstanceLight& light : world.light) {
-        if (light.photons) light.photons->keep();
-        light.changed();
-    }
+    for (light::InstanceLight& light : world.light) light.changed();
     return true;
 }
 

@@ -56,6 +56,14 @@ void makeAlias(const std::vector<double>& weights, std::vector<shared::SkyCell>&
     }
 }
 
+/// Across the vertical, towards the sun.
+glm::dvec3 acrossOf(const glm::dvec3& toSun, const glm::dvec3& up) {
+    const glm::dvec3 across = toSun - glm::dot(toSun, up) * up;
+    if (glm::length(across) > 1e-6) return glm::normalize(across);
+    const glm::dvec3 aside = std::abs(up.x) < 0.9 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
+    return glm::normalize(aside - glm::dot(aside, up) * up);
+}
+
 void addSun(AirLight& light, const sky::Atmosphere& atmosphere, const scene::Sun& sun, const Box& box,
             const glm::dvec3& across, const glm::dvec3& up) {
     const glm::dvec2 width = endsAlong(box, across), heights = endsAlong(box, up);
@@ -82,6 +90,7 @@ void addSky(AirLight& light, const sky::Atmosphere& atmosphere, const sky::SkyMa
     const double height = atmosphere.heightAt(middle), half = 0.5 * (ends.y - ends.x);
     const glm::dmat3 faces = faceAreas(box.edges, box.size);
     light.skyAxes = maps.axes();
+    light.meanArea = 0.5 * (glm::length(faces[0]) + glm::length(faces[1]) + glm::length(faces[2]));
     light.cells.resize(cellCount);
     std::vector<double> weights;
     for (int cell = 0; cell < cellCount; ++cell) {
@@ -112,18 +121,36 @@ void addSky(AirLight& light, const sky::Atmosphere& atmosphere, const sky::SkyMa
                                        maps.radiance(cell, std::max(0.0, height + half)));
         const double area = weight / (luminance(mean) * angle);
         light.skyPeak = std::max(light.skyPeak, glm::compMax(glm::max(low, high)) * area);
+        light.skyPeakDensity = std::max(light.skyPeakDensity, glm::compMax(glm::max(low, high)));
     }
 }
 
 }  // namespace
 
-AirLight makeAirLight(const sky::Atmosphere& atmosphere, const sky::SkyMaps& maps, const scene::Sun& sun,
+AirLight makeAirLight(const sky::Atmosphere& atmosphere, const sky::SkyMaps* maps, const scene::Sun& sun,
                       const Box& box) {
     AirLight light;
     const glm::dvec3 up = atmosphere.upAt(box.origin + box.edges * (0.5 * box.size));
-    addSun(light, atmosphere, sun, box, maps.axes()[0], up);
-    addSky(light, atmosphere, maps, box, up);
+    light.origin = box.origin;
+    addSun(light, atmosphere, sun, box, acrossOf(sun.directionTo, up), up);
+    if (maps != nullptr) addSky(light, atmosphere, *maps, box, up);
     return light;
+}
+
+AirLight forArea(const AirLight& light, double area, const glm::dvec3& origin) {
+    AirLight scaled = light;
+    const double factor = area / light.meanArea;
+    scaled.skyFlux *= factor;
+    scaled.skyPeak = light.skyPeakDensity * light.meanArea;
+    for (shared::SkyCell& cell : scaled.cells) {
+        cell.low /= static_cast<float>(factor);
+        cell.high /= static_cast<float>(factor);
+    }
+    const glm::dvec3 shift = origin - light.origin;
+    scaled.origin = origin;
+    scaled.place.origin +=
+        glm::vec2(glm::dot(glm::dvec3(light.place.across), shift), glm::dot(glm::dvec3(light.place.up), shift));
+    return scaled;
 }
 
 }  // namespace lumulus::photon

@@ -16,6 +16,9 @@ struct AirLight {
     std::vector<shared::SkyCell> cells;  ///< of the sky's map
     glm::dvec3 skyFlux{0.0};             ///< of sky and ground through the cloud's box [W]
     double skyPeak = 1.0;                ///< largest weight of a photon of the sky
+    double skyPeakDensity = 0.0;         ///< largest weight for each m² that a photon stands for
+    double meanArea = 0.0;               ///< that the box shows, on average over directions [m²]
+    glm::dvec3 origin{0.0};              ///< of the voxels that `place` is of [m]
     glm::dmat3 skyAxes{1.0};             ///< from the map to the world
 };
 
@@ -26,8 +29,12 @@ struct Box {
     glm::dvec3 size{1.0};  ///< voxels
 };
 
-/// Light of an atmosphere, with the maps of its sky, in a cloud.
-AirLight makeAirLight(const sky::Atmosphere& atmosphere, const sky::SkyMaps& maps, const scene::Sun& sun,
+/// Light of an atmosphere in a cloud: of the sun and, with the maps of its sky, of the sky.
+AirLight makeAirLight(const sky::Atmosphere& atmosphere, const sky::SkyMaps* maps, const scene::Sun& sun,
                       const Box& box);
+
+/// The same light for photons that stand for areas up to `area` [m²] instead of those that the box shows, and for
+/// places in metres from `origin`. The voxels of `light` are metres along the axes of the world.
+AirLight forArea(const AirLight& light, double area, const glm::dvec3& origin);
 
 }  // namespace lumulus::photon

@@ -1,6 +1,7 @@
 #include "light/photon/emission.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "light/photon/air_light.h"
 
@@ -44,6 +45,25 @@ Emission makeEmission(const scene::Sun& sun, const sky::Environment& environment
 Emission makeEmission(const scene::Sun& sun, const AirLight& air, const glm::dmat3& faceArea) {
     Emission emission = sharedOut(sun, air.skyFlux, faceArea);
     emission.skyPeak = air.skyPeak;
+    return emission;
+}
+
+Emission makeEmission(const scene::Sun& sun, const sky::Environment& environment, double area) {
+    Emission emission;
+    emission.sunFlux = sun.irradiance * area;
+    emission.skyFlux = 4.0 * std::numbers::pi * area * glm::dvec3(environment.params().radiance);
+    const double both = luminance(emission.sunFlux) + luminance(emission.skyFlux);
+    emission.sunShare = both > 0.0 ? luminance(emission.sunFlux) / both : 0.0;
+    return emission;
+}
+
+Emission makeEmission(const scene::Sun& sun, const AirLight& air, double area) {
+    Emission emission;
+    emission.sunFlux = sun.irradiance * area;
+    emission.skyFlux = air.skyFlux;
+    emission.skyPeak = air.skyPeak;
+    const double both = luminance(emission.sunFlux) + luminance(emission.skyFlux);
+    emission.sunShare = both > 0.0 ? luminance(emission.sunFlux) / both : 0.0;
     return emission;
 }
 

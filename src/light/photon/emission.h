@@ -33,6 +33,11 @@ Emission makeEmission(const scene::Sun& sun, const sky::Environment& environment
 struct AirLight;
 /// The same under an atmosphere; `sun` has the most of it that reaches the box.
 Emission makeEmission(const scene::Sun& sun, const AirLight& air, const glm::dmat3& faceArea);
+/// Light of which a photon stands for `area` [m²] at most, across its direction, from wherever it comes.
+Emission makeEmission(const scene::Sun& sun, const sky::Environment& environment, double area);
+
+/// The same under an atmosphere, whose light is for that area (forArea()).
+Emission makeEmission(const scene::Sun& sun, const AirLight& air, double area);
 
 /// Area vectors [m²] of the faces across x, y and z of a box of `size` voxels with the given edges (columns) [m]. They
 /// point the way of the edges, in a mirrored volume too.
