@@ -21,7 +21,9 @@ float densityOf(sampler3D density, ivec3 voxel, ivec3 size) {
 vec3 nearStep(vec2 u) {
     const float fine = 4096.0 * u.x;  // of 24 bits, half for y and half for z
     return vec3(u.y, (floor(fine) + 0.5) / 4096.0, fract(fine));
-/// The same in an atlas, where the volume begins at `origin`.
+}
+
+/// Value of a voxel of a volume in an atlas, where the volume begins at `origin`.
 float densityOf(sampler3D density, ivec3 voxel, ivec3 size, ivec3 origin) {
     const bool inside = all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, size));
     return inside ? texelFetch(density, origin + voxel, 0).r : 0.0;
