@@ -12,7 +12,7 @@ namespace lumulus::cloud {
 namespace {
 
 namespace spirv {
-#include "spirv/cloud/copy_index.comp.h"
+#include "spirv/cloud/join_index.comp.h"
 }  // namespace spirv
 
 constexpr std::uint64_t indexWidth = 1024;
@@ -133,7 +133,7 @@ JoinedIndex joinIndices(gpu::Context& context, std::span<const gpu::Image* const
         if (same == i) texels += texelsOf(*indices[i]);
     }
     JoinedIndex joined{gpu::Image(context, "brick indices", indexExtent(texels), VK_FORMAT_R32G32_UINT), firsts};
-    const gpu::Program<shared::CopyIndexPush> program(context, "copy_index", spirv::copy_index_comp);
+    const gpu::Program<shared::CopyIndexPush> program(context, "join_index", spirv::join_index_comp);
     gpu::Commands commands(context);
     commands.begin();
     commands.pass("brick indices");

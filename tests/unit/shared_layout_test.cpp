@@ -26,7 +26,7 @@ namespace {
 
 namespace spirv {
 #include "spirv/cloud/block_majorant.comp.h"
-#include "spirv/cloud/copy_index.comp.h"
+#include "spirv/cloud/join_index.comp.h"
 #include "spirv/cloud/leaf_statistics.comp.h"
 #include "spirv/cloud/sample.comp.h"
 #include "spirv/draw/billboard_mean.comp.h"
@@ -103,7 +103,7 @@ TEST(SharedLayout, Cloud) {
     EXPECT_LAYOUT(leaf_statistics_comp, LeafBox, lower, upper);
     EXPECT_LAYOUT(leaf_statistics_comp, LeafStatistics, majorant, mass, moment, occupied);
     EXPECT_PUSH(leaf_statistics_comp, LeafPush, size, leaves);
-    EXPECT_PUSH(copy_index_comp, CopyIndexPush, count, first);
+    EXPECT_PUSH(join_index_comp, CopyIndexPush, count, first);
     EXPECT_PUSH(block_majorant_comp, BlockPush, size, blocks, gradientToMetres);
     EXPECT_PUSH(sample_comp, SamplePush, gradientToMetres, size, blocks, samples, seed);
 }
