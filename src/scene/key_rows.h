@@ -40,5 +40,6 @@ inline Key other(Text name, Type type, Text fallback, Text documentation, Setter
 /// Rows of other files.
 std::vector<Key> groundKeys();
 std::vector<Key> sunAndSkyKeys();
+std::vector<Key> atmosphereKeys();
 
 }  // namespace lumulus::scene

@@ -283,8 +283,9 @@ std::vector<Key> surfaceKeys() {
 const std::vector<Key>& schema() {
     static const std::vector<Key> all = [] {
         std::vector<Key> keys;
-        for (const auto& part : {imageAndCameraKeys(), sunAndSkyKeys(), groundKeys(), cloudKeys(), phaseKeys(), preparationKeys(),
-                                 photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys()}) {
+        for (const auto& part :
+             {imageAndCameraKeys(), sunAndSkyKeys(), atmosphereKeys(), groundKeys(), cloudKeys(), phaseKeys(),
+              preparationKeys(), photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys()}) {
             keys.insert(keys.end(), part.begin(), part.end());
         }
         return keys;

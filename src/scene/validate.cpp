@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "scene/alternatives.h"
+#include "scene/finish_sky.h"
 
 namespace lumulus::scene {
 namespace {
@@ -197,6 +198,7 @@ Scene finishScene(Draft draft, const Settings& settings) {
     checkImage(draft.scene.image, settings);
     checkCamera(draft.scene.camera, settings);
     finishSun(draft, settings);
+    finishSky(draft, settings);
     for (std::size_t i = 0; i < draft.scene.clouds.size(); ++i) {
         const Cloud& cloud = draft.scene.clouds[i];
         const std::string path = fmt::format("cloud.{}", i);

@@ -109,7 +109,7 @@ TEST(SceneFile, EveryKeyArrives) {
     expected.image = {640, 480, -1.5};
     expected.camera = {glm::dvec3(1, 2, 3.5), glm::dvec3(4, 5, 6), {0, 0, 1}, 30.0, Projection::panorama};
     expected.sun = {{0, 0, 1}, {2, 2, 2}, 1.0};
-    expected.sky = {{0.1, 0.2, 0.3}};
+    expected.sky.radiance = {0.1, 0.2, 0.3};
     Cloud cloud;
     cloud.procedural = "sphere";
     cloud.grid = "density";

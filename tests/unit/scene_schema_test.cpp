@@ -23,6 +23,9 @@ using testing::HasSubstr;
 /// What a key needs beside it to have an effect.
 std::string companionOf(const Key& key) {
     const std::string_view name = key.name.substr(key.name.rfind('.') + 1);
+    const std::set<std::string_view> ofAir{"sky.preset", "sky.aerosol_depth", "sky.angstrom", "sky.ozone",
+                                           "sky.ground_albedo"};
+    if (ofAir.contains(key.name)) return "model = \"atmosphere\"\n";
     if (name == "droplet_diameter") return "phase.model = \"droplet\"\n";
     if (name == "falloff" || name == "direction" || name == "offset") return "kind = \"exponential\"\n";
     if (name == "center" || name == "radius") return "kind = \"sphere\"\n";
