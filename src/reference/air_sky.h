@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "reference/air_medium.h"
+#include "reference/sky_map.h"
 #include "reference/sun_disc.h"
 #include "scene/scene.h"
 
@@ -19,6 +20,10 @@ class AirSky {
     Four radiance(const glm::dvec3& /*direction*/) const { return Four(0.0); }
     Four relativeRadiance(const glm::dvec3& /*direction*/) const { return Four(0.0); }
     glm::dvec3 unit() const { return glm::dvec3(1.0); }
+
+    bool aimed() const { return false; }
+    SkyMapSample sample(Random& /*random*/) const { return {}; }
+    double density(const glm::dvec3& /*direction*/) const { return 0.0; }
 
     const SunDisc& sun() const { return sun_; }
     bool sunny() const { return sunny_; }

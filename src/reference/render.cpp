@@ -55,6 +55,13 @@ void addAir(Fingerprint& print, const scene::Sky& sky) {
     print.add(sky.model).add(static_cast<int>(sky.hillaire)).add(sky.aerosolDepth).add(sky.angstrom).add(sky.ozone);
 }
 
+/// The map by its name: its content is read once and not kept here.
+void addMap(Fingerprint& print, const scene::Sky& sky) {
+    const std::string name = sky.map.string();
+    print.add(sky.model).add(sky.mapScale).add(sky.mapRotation).add(static_cast<int>(sky.mapSun));
+    print.add(std::as_bytes(std::span(name)));
+}
+
 std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes,
                             const Camera& camera, Majorant majorant, std::uint64_t seed) {
     Fingerprint print;
@@ -68,6 +75,7 @@ std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::Pl
     for (const scene::Surface& surface : surfacesOf(scene)) addSurface(print, surface);
     if (scene.sun.limbDarkening) print.add(1);
     if (scene.sky.model == scene::SkyModel::atmosphere) addAir(print, scene.sky);
+    if (scene.sky.model == scene::SkyModel::map) addMap(print, scene.sky);
     if (!scene.image.background) print.add(scene.image.background);
     return print.value();
 }

@@ -222,6 +222,29 @@ Light BasicPathTracer<Light>::lampLight(const Vertex& vertex, Random& random) co
     return light;
 }
 
+/// Light of the sky for a path from `vertex` that escapes there by chance, without the share that `skyLight` covers.
+template <typename Light>
+Light BasicPathTracer<Light>::skyByChance(const Vertex& vertex) const {
+    const glm::dvec3& direction = vertex.ray.direction;
+    const Light radiance = environment_.radiance(direction);
+    if (!environment_.aimed()) return radiance;
+    const double chance = density(vertex, direction);
+    return chance > 0.0 ? radiance * (chance / (chance + environment_.density(direction))) : Light(0.0);
+}
+
+/// Light of a direction that is drawn from the map of the sky, which reaches the vertex and goes on along the path.
+template <typename Light>
+Light BasicPathTracer<Light>::skyLight(const Vertex& vertex, Random& random) const {
+    const SkyMapSample sky = environment_.sample(random);
+    const double chance = response(vertex, sky.direction);
+    const Ray shadow{vertex.ray.origin, sky.direction};
+    if (!(chance > 0.0) || surfaces_.block(shadow, vertex.surface())) return Light(0.0);
+    double weight = chance / (density(vertex, sky.direction) + sky.density);
+    weight = clouds_.passed(vertex.voxels, sky.direction, random, weight, 0.0);
+    const Light light = weight * environment_.radiance(sky.direction);
+    return haze_.empty() ? light : light * haze_.transmittance(shadow, endless);
+}
+
 /// Light of the sun's disc for a path from `vertex` that escapes into it by chance, without the share that
 /// `sunTransmission` covers.
 template <typename Light>
@@ -263,7 +286,7 @@ bool BasicPathTracer<Light>::step(Path& path, Found& found, std::vector<Path>& b
         if (vertex.place == Place::eye) {
             found.passed = throughput * environment_.relativeRadiance(vertex.ray.direction);
         } else if (isLit(vertex)) {
-            found.radiance += throughput * (environment_.radiance(vertex.ray.direction) + sunByChance(vertex));
+            found.radiance += throughput * (skyByChance(vertex) + sunByChance(vertex));
         }
         return false;
     }
@@ -277,6 +300,7 @@ bool BasicPathTracer<Light>::step(Path& path, Found& found, std::vector<Path>& b
             throughput * environment_.sunFluence() * sunTransmission(vertex, glm::compMax(throughput) / share, random);
     }
     if (!lamps_.empty()) found.radiance += throughput * lampLight(vertex, random);
+    if (environment_.aimed() && isLit(vertex)) found.radiance += throughput * skyLight(vertex, random);
     if (aureole_) branch(path, branches, random);
     // absorption ends the path only after the light of the collision itself was added
     return survives(throughput, share, random) && head(path, turn(vertex, random), random);

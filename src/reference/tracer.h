@@ -137,6 +137,8 @@ class BasicPathTracer {
     bool step(Path& path, Found& found, std::vector<Path>& branches, Random& random) const;
     Light emissionAt(const Vertex& vertex, const Event& event) const;
     Light lampLight(const Vertex& vertex, Random& random) const;
+    Light skyByChance(const Vertex& vertex) const;
+    Light skyLight(const Vertex& vertex, Random& random) const;
     Light sunByChance(const Vertex& vertex) const;
     Light sunTransmission(const Vertex& vertex, double strength, Random& random) const;
     bool isLit(const Vertex& vertex) const { return vertex.place != Place::haze || inscattering_; }
