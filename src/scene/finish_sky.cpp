@@ -48,6 +48,9 @@ void finishSky(Draft& draft, const Settings& settings) {
     if (!air) return;
     if (settings.find("sun.irradiance") == nullptr) draft.scene.sun.irradiance = sunAboveAir;
     if (settings.find("sun.limb_darkening") == nullptr) draft.scene.sun.limbDarkening = true;
+    // radiances of a real sky are a hundred times what a file without exposure shows, by night a millionth
+    if (settings.find("image.exposure_mode") == nullptr && settings.find("image.exposure") == nullptr)
+        draft.scene.image.exposureMode = ExposureMode::automatic;
 }
 
 }  // namespace lumulus::scene

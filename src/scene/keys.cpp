@@ -41,7 +41,8 @@ std::vector<Key> imageAndCameraKeys() {
                "Photographic stops, applied before the tone map of PNG files. EXR files stay linear.",
                [](Draft& d, const Value& v) { d.scene.image.exposure = v.number; }),
         choice(
-            "image.exposure_mode", {"stops", "ev100", "auto"}, "\"stops\"",
+            "image.exposure_mode", {"stops", "ev100", "auto"},
+            "(\"auto\" under an atmosphere where no exposure is given, else \"stops\")",
             "What sets the exposure of PNG files and of encoded frames: `stops` alone; `ev100`, the exposure value of "
             "a camera, with radiance × 683 lm/W as cd/m²; `auto`, by the clouds themselves, whose 98th percentile "
             "becomes 0.8. `exposure` adds to each of them.",

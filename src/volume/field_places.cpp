@@ -221,14 +221,14 @@ std::vector<Placer::Cloud> Placer::cellsOf(double gridSpacing) const {
     std::vector<float> ranks;
     for (int row = -rows; row <= rows; ++row) {
         for (int column = -rows; column <= rows; ++column) {
-            constexpr double jitter = 0.22;
+            constexpr double jitter = 0.4;
             const glm::dvec2 shift(static_cast<double>(random.uniform(-0.5F, 0.5F)),
                                    static_cast<double>(random.uniform(-0.5F, 0.5F)));
             const glm::dvec2 at(column + 0.5 * (row & 1) + jitter * shift.x,
                                 0.5 * std::sqrt(3.0) * row + jitter * shift.y);
             Cloud cell;
             cell.middle = gridSpacing * (at.x * x + at.y * y);
-            cell.diameter = cellDiameter() * static_cast<double>(random.uniform(0.9F, 1.12F));
+            cell.diameter = cellDiameter() * static_cast<double>(random.uniform(0.88F, 1.2F));
             cell.angle = angleOf(random);
             cell.variant =
                 std::min(static_cast<int>(random.uniform() * static_cast<float>(field_.variants)), field_.variants - 1);

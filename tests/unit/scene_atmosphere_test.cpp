@@ -53,4 +53,12 @@ TEST(SceneAtmosphere, RefusesWhatItDoesNotRead) {
 }
 
 }  // namespace
+TEST(SceneAtmosphere, IsExposedByItsPictureUnlessAnExposureIsGiven) {
+    const auto modeOf = [](const std::string& text) { return parseScene(text, "a.toml", {}).image.exposureMode; };
+    EXPECT_EQ(modeOf(""), ExposureMode::stops);
+    EXPECT_EQ(modeOf("[sky]\nmodel = \"atmosphere\"\n"), ExposureMode::automatic);
+    EXPECT_EQ(modeOf("[image]\nexposure = -6.0\n[sky]\nmodel = \"atmosphere\"\n"), ExposureMode::stops);
+    EXPECT_EQ(modeOf("[image]\nexposure_mode = \"ev100\"\n[sky]\nmodel = \"atmosphere\"\n"), ExposureMode::ev100);
+}
+
 }  // namespace lumulus::scene

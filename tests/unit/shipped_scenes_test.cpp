@@ -13,6 +13,7 @@
 #include "support/rico.h"
 #include "view/camera.h"
 #include "volume/load.h"
+#include "volume/place_clouds.h"
 
 // Every scene that ships loads, and what is meant for measuring shows enough of its cloud.
 namespace lumulus {
@@ -92,13 +93,27 @@ TEST(ShippedScenes, AreTheOnesThatTheDocumentsName) {
 TEST(ShippedScenes, AllLoad) {
     for (const auto& file : shipped()) {
         const scene::Scene scene = load(file);
-        EXPECT_EQ(scene.clouds.size(), file.stem() == "two-clouds" ? 2U : 1U) << file;
+        const std::size_t single = file.stem() == "two-clouds" ? 2 : 1;
+        EXPECT_EQ(scene.clouds.size(), scene.fields.empty() ? single : 0) << file;
+        EXPECT_EQ(scene.fields.empty(), !file.stem().string().starts_with("field-")) << file;
+    }
+}
+
+TEST(ShippedScenes, FieldsAreOfManyClouds) {
+    for (const auto& file : shipped()) {
+        scene::Scene scene = load(file);
+        if (scene.fields.empty()) continue;
+        scene.fields[0].resolution = 32;
+        const std::size_t clouds = placeClouds(scene).clouds.size();
+        EXPECT_GE(clouds, 10U) << file;
+        EXPECT_LE(clouds, 256U) << file;
     }
 }
 
 TEST(ShippedScenes, ShowTheCloudInThreeTenthsOfThePicture) {
     for (const auto& file : shipped()) {
         const scene::Scene scene = load(file);
+        if (!scene.fields.empty()) continue;
         // those of the sky show that too
         EXPECT_GE(cloudShare(scene), file.stem().string().starts_with("sky-") ? 0.08 : 0.3) << file;
     }
