@@ -70,7 +70,7 @@ struct Asset {
     /// Number of the collector of each voxel, the format's largest value: none. Of bricks: nodes of the kD-tree
     /// (lib/collector.glsl).
     gpu::Image collectorIndex;
-    MajorantGrid majorants;     ///< that photons walk through: a single one or one a cell
+    MajorantGrid majorants;  ///< that photons walk through: a single one or one a cell
     gpu::Image majorantImage;
     MajorantGrid cells;                   ///< one a cell always: where a march finds empty space
     std::optional<gpu::Image> cellImage;  ///< none where photons walk through the same cells

@@ -64,11 +64,7 @@ class SlotUpload {
     VkBufferImageCopy regionOf(const glm::uvec3& slot, std::uint64_t number) const {
         constexpr std::uint32_t edge = vdb::SparseVolume::slotEdge;
         const glm::ivec3 corner(edge * slot);
-        return {number * stride_,
-                0,
-                0,
-                {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                {corner.x, corner.y, corner.z},
+        return {number * stride_,  0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {corner.x, corner.y, corner.z},
                 {edge, edge, edge}};
     }
 
@@ -120,8 +116,7 @@ gpu::Image makeBrickIndex(gpu::Context& context, const vdb::SparseVolume& volume
     std::vector<glm::uvec2> texels;
     texels.reserve(volume.nodes.size() + volume.entries.size());
     const auto first = static_cast<std::uint32_t>(volume.nodes.size());
-    for (const std::uint32_t node : volume.nodes)
-        texels.emplace_back(first + vdb::SparseVolume::nodeEntries * node, 0);
+    for (const std::uint32_t node : volume.nodes) texels.emplace_back(first + vdb::SparseVolume::nodeEntries * node, 0);
     for (const vdb::BrickEntry& entry : volume.entries) texels.emplace_back(entry.place, entry.range);
     return makeIndexImage(context, "brick index", std::move(texels));
 }

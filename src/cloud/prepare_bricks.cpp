@@ -37,9 +37,8 @@ CoarseDensity coarseDensity(const SparseVolume& volume) {
         const glm::ivec3 at = SparseVolume::brickEdge * leaf.at / coarse.scale;
         coarse.values[static_cast<std::size_t>(at.x) +
                       static_cast<std::size_t>(coarse.size.x) *
-                          (static_cast<std::size_t>(at.y) +
-                           static_cast<std::size_t>(coarse.size.y) * static_cast<std::size_t>(at.z))] +=
-            leaf.mass / voxels;
+                          (static_cast<std::size_t>(at.y) + static_cast<std::size_t>(coarse.size.y) *
+                                                                static_cast<std::size_t>(at.z))] += leaf.mass / voxels;
     }
     return coarse;
 }

@@ -77,15 +77,14 @@ std::vector<Sample> sampleGradient(gpu::Context& context, const DensityImages& i
     gpu::Commands commands(context);
     commands.begin();
     commands.pass("sample");
-    commands.dispatch(
-        program,
-        {{"density", images.density, Sampler::linear},
-         {"bricks", images.bricks, Sampler::nearest},
-         {"Bounds", bounds},
-         {"Cumulative", cumulative},
-         {"Samples", samples},
-         {"Places", places}},
-        shared::SamplePush{toMetres, size, blocks.count, count, options.seed}, linearGroups(count, 64));
+    commands.dispatch(program,
+                      {{"density", images.density, Sampler::linear},
+                       {"bricks", images.bricks, Sampler::nearest},
+                       {"Bounds", bounds},
+                       {"Cumulative", cumulative},
+                       {"Samples", samples},
+                       {"Places", places}},
+                      shared::SamplePush{toMetres, size, blocks.count, count, options.seed}, linearGroups(count, 64));
     commands.submit();
     commands.wait();
     std::vector<Sample> result(count);
@@ -112,10 +111,10 @@ KdTree makeTree(const std::vector<Sample>& samples, const glm::ivec3& size, cons
 std::vector<shared::LeafStatistics> leafStatistics(gpu::Context& context, const DensityImages& images,
                                                    const glm::ivec3& size, const gpu::Buffer& leafBuffer,
                                                    std::uint32_t leaves) {
-    const auto program =
-        images.sparse ? gpu::Program<shared::LeafPush>(context, "leaf_statistics_bricks",
-                                                       spirv::leaf_statistics_bricks_comp, {images.constant()})
-                      : gpu::Program<shared::LeafPush>(context, "leaf_statistics", spirv::leaf_statistics_comp);
+    const auto program = images.sparse
+                             ? gpu::Program<shared::LeafPush>(context, "leaf_statistics_bricks",
+                                                              spirv::leaf_statistics_bricks_comp, {images.constant()})
+                             : gpu::Program<shared::LeafPush>(context, "leaf_statistics", spirv::leaf_statistics_comp);
     gpu::Buffer statistics(context, "leaf statistics", leaves * sizeof(shared::LeafStatistics), Memory::host);
     gpu::Commands commands(context);
     commands.begin();

@@ -30,11 +30,11 @@ glm::mat3 gradientToMetres(const glm::dmat3& voxelToMetres);
 
 /// Cubes of voxels, one after the other, with bounds of what is in them.
 struct Blocks {
-    glm::ivec3 count{0};                 ///< along each axis
-    std::vector<float> majorants;        ///< of the density
-    std::vector<float> gradientBounds;   ///< of |∇ρ|
-    std::vector<glm::ivec3> places;      ///< where the blocks are bricks: of each, in bricks; `count` is then their number
-    int edge = shared::BLOCK_EDGE;       ///< voxels
+    glm::ivec3 count{0};                ///< along each axis
+    std::vector<float> majorants;       ///< of the density
+    std::vector<float> gradientBounds;  ///< of |∇ρ|
+    std::vector<glm::ivec3> places;  ///< where the blocks are bricks: of each, in bricks; `count` is then their number
+    int edge = shared::BLOCK_EDGE;   ///< voxels
 
     /// Of those with density.
     double occupiedVoxels() const;

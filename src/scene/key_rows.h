@@ -39,5 +39,6 @@ inline Key other(Text name, Type type, Text fallback, Text documentation, Setter
 
 /// Rows of other files.
 std::vector<Key> sunAndSkyKeys();
+std::vector<Key> storageKeys();
 
 }  // namespace lumulus::scene

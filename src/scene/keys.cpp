@@ -137,7 +137,8 @@ std::vector<Key> preparationKeys() {
                 [](Draft& d, const Value& v) { d.scene.preparation.maxLeaves = static_cast<int>(v.integer); }),
         number(
             "preparation.memory_budget", {1.0, 1048576.0}, "512.0",
-            "MiB for the density volumes of all clouds on the GPU. Grids that need more are averaged to larger voxels.",
+            "MiB for the densities of all clouds on the GPU. What needs more is stored at coarser levels where the "
+            "picture shows it smallest, or averaged to larger voxels.",
             [](Draft& d, const Value& v) { d.scene.preparation.memoryBudget = v.number; }),
     };
 }
@@ -283,7 +284,7 @@ std::vector<Key> surfaceKeys() {
 const std::vector<Key>& schema() {
     static const std::vector<Key> all = [] {
         std::vector<Key> keys;
-        for (const auto& part : {imageAndCameraKeys(), sunAndSkyKeys(), cloudKeys(), phaseKeys(), preparationKeys(),
+        for (const auto& part : {imageAndCameraKeys(), sunAndSkyKeys(), cloudKeys(), phaseKeys(), preparationKeys(), storageKeys(),
                                  photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys()}) {
             keys.insert(keys.end(), part.begin(), part.end());
         }
