@@ -120,6 +120,20 @@ openvdb::GridBase::Ptr GridFile::read(std::size_t index) {
     return grids_[index];
 }
 
+bool GridFile::hasStream(std::size_t index) {
+    return archive_ && archive_->hasStream(index);
+}
+
+openvdb::FloatGrid::Ptr GridFile::readStructure(std::size_t index) {
+    openvdb::FloatGrid::Ptr grid;
+    readStep(path_, *archive_, [&] { grid = archive_->readStructure(index); });
+    return grid;
+}
+
+void GridFile::streamLeaves(openvdb::FloatGrid& grid, const GridArchive::LeafVisit& visit) {
+    readStep(path_, *archive_, [&] { archive_->streamLeaves(grid, visit); });
+}
+
 std::vector<GridLabel> GridFile::labels() {
     std::vector<GridLabel> labels;
     for (std::size_t i = 0; i < grids_.size(); ++i) {

@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "vdb/choose_grid.h"
+#include "vdb/grid_archive.h"
 #include "vdb/read_limits.h"
 
 /// Reading an OpenVDB file safely (inside vdb/ only: the header costs seconds).
 namespace lumulus::vdb {
-
-class GridArchive;
 
 /// The grids of an OpenVDB or NanoVDB file. Where the file allows it (GridArchive), they are read one by one.
 class GridFile {
@@ -27,6 +26,12 @@ class GridFile {
     const openvdb::GridPtrVec& grids() const { return grids_; }
     /// A grid with its tree. Errors: as above.
     openvdb::GridBase::Ptr read(std::size_t index);
+    /// Whether the values of a grid can be read leaf by leaf.
+    bool hasStream(std::size_t index);
+    /// Reads a grid without values, and then its values (GridArchive). Errors: as above.
+    openvdb::FloatGrid::Ptr readStructure(std::size_t index);
+    void streamLeaves(openvdb::FloatGrid& grid, const GridArchive::LeafVisit& visit);
+    const openvdb::io::StreamMetadata& storage() const { return archive_->storage(); }
     /// As choosing a grid takes them. They refer to this.
     std::vector<GridLabel> labels();
 

@@ -43,16 +43,17 @@ void GridArchive::readHeads() {
         isRead_.push_back(false);
         descriptor.setGridPos(in_.tellg());  // as all files have it, whatever this one says
         const std::size_t index = grids_.size() - 1;
-        if (inputHasGridOffsets()) {
+        // after a single grid nothing has to be found
+        if (inputHasGridOffsets() || count == 1) {
             constexpr std::uint64_t bytesOfHead = 4096;
             file_.foresee(bytesOfHead);
             readHead(index);
-            descriptor.seekToEnd(in_);
+            if (inputHasGridOffsets()) descriptor.seekToEnd(in_);
         } else {
             readTree(index);
         }
     }
-    if (!inputHasGridOffsets())
+    if (!inputHasGridOffsets() && count > 1)
         for (std::size_t i = 0; i < grids_.size(); ++i) read(i);
 }
 
@@ -85,6 +86,38 @@ void GridArchive::readTree(std::size_t index) {
     file_.countMasks(false);
     file_.foresee(bytesBeside(*grid));
     grid->readBuffers(in_);
+}
+
+bool GridArchive::hasStream(std::size_t index) {
+    return !isRead_[index] && !descriptors_[index].isInstance() && grids_[index]->isType<openvdb::FloatGrid>() &&
+           openvdb::io::getFormatVersion(in_) >= openvdb::OPENVDB_FILE_VERSION_GRID_INSTANCING;
+}
+
+openvdb::FloatGrid::Ptr GridArchive::readStructure(std::size_t index) {
+    openvdb::GridBase& grid = *grids_[index];
+    descriptors_[index].seekToGrid(in_);
+    readGridCompression(in_);
+    grid.readMeta(in_);
+    grid.removeMeta(openvdb::GridBase::META_FILE_DELAYED_LOAD);
+    grid.readTransform(in_);
+    file_.countMasks(true, MeteredFile::Leaves::withoutValues);
+    grid.readTopology(in_);
+    file_.countMasks(false);
+    isRead_[index] = true;  // as far as it will be
+    return openvdb::gridPtrCast<openvdb::FloatGrid>(grids_[index]);
+}
+
+void GridArchive::streamLeaves(openvdb::FloatGrid& grid, const LeafVisit& visit) {
+    using Leaf = openvdb::FloatTree::LeafNodeType;
+    std::vector<Leaf*> leaves;
+    grid.tree().getNodes(leaves);
+    for (Leaf* leaf : leaves) {
+        const auto place = static_cast<std::uint64_t>(in_.tellg());
+        leaf->readBuffers(in_, grid.saveFloatAsHalf());
+        visit(*leaf, place);
+        Leaf::Buffer none(openvdb::PartialCreate(), 0.0F);
+        leaf->swap(none);
+    }
 }
 
 void GridArchive::read(std::size_t index) {

@@ -5,6 +5,7 @@
 #include <openvdb/io/io.h>
 #include <openvdb/openvdb.h>
 
+#include <functional>
 #include <istream>
 #include <vector>
 
@@ -28,6 +29,16 @@ class GridArchive : private openvdb::io::Archive {
     const openvdb::GridPtrVec& grids() const { return grids_; }
     /// Reads the tree of a grid, where it was not read yet. Errors: as above.
     void read(std::size_t index);
+    /// Whether the values of a grid can be read leaf by leaf: floats, whose tree was not read yet.
+    bool hasStream(std::size_t index);
+    /// Reads the structure of such a grid: a tree of leaves without values. Errors: as above.
+    openvdb::FloatGrid::Ptr readStructure(std::size_t index);
+    /// Visits the leaves of that grid in the order of the file, each with its values and its place in the file. They
+    /// are gone afterwards. Errors: as above.
+    using LeafVisit = std::function<void(openvdb::FloatTree::LeafNodeType& leaf, std::uint64_t place)>;
+    void streamLeaves(openvdb::FloatGrid& grid, const LeafVisit& visit);
+    /// How the file's values are stored, for readers of single leaves.
+    const openvdb::io::StreamMetadata& storage() const { return *metadata_; }
     /// Whether the file ended too early.
     bool ended() const { return in_.eof(); }
     /// Throws again what ended the reading, where that was not the file.

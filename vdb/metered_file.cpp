@@ -15,6 +15,9 @@ bool isMask(std::streamsize bytes) {
 /// Memory of a node for each byte of its masks: four bytes of a leaf's value for a bit of its one mask; eight of a
 /// pointer or value for the two bits in the masks of a node above.
 constexpr std::uint64_t bytesOfMask = 32;
+/// The same of a leaf without values: its head.
+constexpr std::uint64_t bytesOfHead = 2;
+constexpr std::streamsize leafMask = 64;
 
 }  // namespace
 
@@ -38,7 +41,8 @@ void MeteredFile::rethrow() const {
 std::streamsize MeteredFile::xsgetn(char* to, std::streamsize bytes) {
     try {
         limits_.check();
-        if (counting_ && isMask(bytes)) foresee(bytesOfMask * static_cast<std::uint64_t>(bytes));
+        const bool head = bytes == leafMask && leaves_ == Leaves::withoutValues;
+        if (counting_ && isMask(bytes)) foresee((head ? bytesOfHead : bytesOfMask) * static_cast<std::uint64_t>(bytes));
     } catch (...) {
         stopped_ = std::current_exception();
         throw;

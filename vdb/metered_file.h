@@ -17,8 +17,12 @@ class MeteredFile : public std::filebuf {
     /// `limits` must outlive this.
     MeteredFile(const std::filesystem::path& path, const ReadLimits& limits);
 
+    enum class Leaves { withValues, withoutValues };
     /// Whether what is read next are masks of nodes to be made.
-    void countMasks(bool count) { counting_ = count; }
+    void countMasks(bool count, Leaves leaves = Leaves::withValues) {
+        counting_ = count;
+        leaves_ = leaves;
+    }
     /// Foresees memory besides what masks tell. Errors: InputError where it is more than the limit.
     void foresee(std::uint64_t bytes);
     /// Throws again what ended the reading, where that was not the file.
@@ -31,6 +35,7 @@ class MeteredFile : public std::filebuf {
     std::filesystem::path path_;
     const ReadLimits& limits_;
     bool counting_ = false;
+    Leaves leaves_ = Leaves::withValues;
     std::uint64_t foreseen_ = 0;  ///< bytes of memory
     std::exception_ptr stopped_;
 };

@@ -3,7 +3,10 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
+
+#include "vdb/sparse_volume.h"
 
 namespace lumulus::vdb {
 namespace {
@@ -73,6 +76,31 @@ ColumnSums columnSums(const Volume& volume, const Check& check) {
             all.largest = std::max(all.largest, part.largest);
             all.total += part.total;
             all.count += part.count;
+        }
+        result.largest[axis] = all.largest;
+        result.mean[axis] = all.count > 0.0 ? all.total / all.count : 0.0;
+    }
+    return result;
+}
+
+ColumnSums columnSums(const SparseVolume& volume) {
+    constexpr double across = LeafTable::edge * LeafTable::edge;
+    ColumnSums result;
+    std::vector<std::pair<std::uint64_t, double>> columns;
+    for (int axis = 0; axis < 3; ++axis) {
+        columns.clear();
+        for (const LeafTable::Leaf& leaf : volume.leaves.leaves) {
+            const auto first = static_cast<std::uint64_t>(leaf.at[(axis + 1) % 3]);
+            const auto second = static_cast<std::uint64_t>(leaf.at[(axis + 2) % 3]);
+            columns.emplace_back(first << 32U | second, static_cast<double>(leaf.mass) / across);
+        }
+        std::ranges::sort(columns);
+        Columns all;
+        for (std::size_t i = 0; i < columns.size();) {
+            double sum = 0.0;
+            const std::uint64_t column = columns[i].first;
+            for (; i < columns.size() && columns[i].first == column; ++i) sum += columns[i].second;
+            all.add(sum);
         }
         result.largest[axis] = all.largest;
         result.mean[axis] = all.count > 0.0 ? all.total / all.count : 0.0;

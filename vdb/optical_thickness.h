@@ -16,6 +16,11 @@ struct ColumnSums {
 /// Errors: what `check` throws, which is asked on any thread.
 ColumnSums columnSums(const Volume& volume, const Check& check = stopIfInterrupted);
 
+struct SparseVolume;
+
+/// The same of a field in leaves, with columns of 8² voxels.
+ColumnSums columnSums(const SparseVolume& volume);
+
 /// Optical thickness of a cloud along the three axes of its grid, from edge to edge.
 struct OpticalThickness {
     glm::dvec3 largest{0.0};  ///< along x, y and z of the grid

@@ -81,8 +81,7 @@ std::size_t Layout::nodeFor(const glm::ivec3& brick) {
 }
 
 void Layout::enterLeaves() {
-    std::ranges::sort(volume_.leaves.leaves, {},
-                      [&](const LeafTable::Leaf& leaf) { return order_.keyOf(leaf.at); });
+    std::ranges::sort(volume_.leaves.leaves, {}, [&](const LeafTable::Leaf& leaf) { return order_.keyOf(leaf.at); });
     for (std::size_t i = 0; i < volume_.leaves.leaves.size(); ++i)
         volume_.leafOf[nodeFor(volume_.leaves.leaves[i].at)] = static_cast<std::int32_t>(i);
 }
@@ -184,8 +183,8 @@ void placeSlots(SparseVolume& volume, int width, std::uint32_t first) {
     volume.firstSlot = first;
     for (std::uint32_t number = 0; number < volume.slots.size(); ++number) {
         const SparseVolume::Slot& slot = volume.slots[number];
-        const std::uint32_t place =
-            slotPlace(volume.slotAt(first + number)) | static_cast<std::uint32_t>(slot.level) << 28U;
+        const std::uint32_t place = slotPlace(volume.slotAt(first + number)) | static_cast<std::uint32_t>(slot.level)
+                                                                                   << 28U;
         const glm::ivec3 end = glm::min(slot.brick + (1 << slot.level), volume.bricks());
         for (int z = slot.brick.z; z < end.z; ++z)
             for (int y = slot.brick.y; y < end.y; ++y)

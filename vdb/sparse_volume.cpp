@@ -62,10 +62,10 @@ LeafTable leavesOf(const Volume& volume) {
 
 std::size_t SparseVolume::entryOf(const glm::ivec3& brick) const {
     const glm::ivec3 root = brick / nodeEdge, within = brick % nodeEdge;
-    const auto number = static_cast<std::size_t>(root.x) +
-                        static_cast<std::size_t>(roots.x) *
-                            (static_cast<std::size_t>(root.y) +
-                             static_cast<std::size_t>(roots.y) * static_cast<std::size_t>(root.z));
+    const auto number =
+        static_cast<std::size_t>(root.x) +
+        static_cast<std::size_t>(roots.x) *
+            (static_cast<std::size_t>(root.y) + static_cast<std::size_t>(roots.y) * static_cast<std::size_t>(root.z));
     return std::size_t{nodeEntries} * nodes[number] +
            static_cast<std::size_t>((within.z * nodeEdge + within.y) * nodeEdge + within.x);
 }
@@ -92,6 +92,11 @@ std::uint64_t SparseVolume::poolBytes() const {
     return size64.x * size64.y * size64.z * texelBytes(format);
 }
 
+std::uint64_t SparseVolume::gpuBytes() const {
+    const glm::u64vec3 grid(cells());
+    return poolBytes() + 2 * indexBytes() + 8 * grid.x * grid.y * grid.z;
+}
+
 DensityFormat chooseFormat(const LeafTable& leaves) {
     constexpr std::size_t most = 512;
     constexpr double tolerance = 1e-3;
@@ -114,7 +119,8 @@ DensityFormat chooseFormat(const LeafTable& leaves) {
 std::vector<std::byte> allTexels(SparseVolume& volume, const Check& check) {
     std::vector<std::byte> all;
     fillSlots(
-        volume, [&](std::uint32_t, std::span<const std::byte> part) { all.insert(all.end(), part.begin(), part.end()); },
+        volume,
+        [&](std::uint32_t, std::span<const std::byte> part) { all.insert(all.end(), part.begin(), part.end()); },
         check);
     return all;
 }

@@ -31,8 +31,8 @@ struct LeafTable {
     };
 
     std::vector<Leaf> leaves;  ///< those with density; at most one at a place
-    /// Gives the values of a leaf that is not constant, x fastest. Called by several threads at once. Errors: InputError
-    /// where the file has become unreadable.
+    /// Gives the values of a leaf that is not constant, x fastest. Called by several threads at once. Errors:
+    /// InputError where the file has become unreadable.
     std::function<void(const Leaf&, Values)> read;
 };
 
@@ -53,10 +53,11 @@ inline std::uint32_t slotPlace(const glm::uvec3& slot) {
     return slot.x | slot.y << 9U | slot.z << 18U;
 }
 
-/// A density field in bricks of 8³ voxels. A brick with texels has a slot of 9³ of them in a pool, so that interpolation
-/// stays within it; a slot of level l holds 2^l bricks along each axis at texels 2^l voxels apart. Empty bricks and
-/// constant ones have none. Bricks are found by two levels: a root for each 4³ bricks, and 4³ entries for each root that
-/// has any brick. Voxel coordinates are those of vdb::Volume: voxel (i,j,k) has its value at (i+½, j+½, k+½).
+/// A density field in bricks of 8³ voxels. A brick with texels has a slot of 9³ of them in a pool, so that
+/// interpolation stays within it; a slot of level l holds 2^l bricks along each axis at texels 2^l voxels apart. Empty
+/// bricks and constant ones have none. Bricks are found by two levels: a root for each 4³ bricks, and 4³ entries for
+/// each root that has any brick. Voxel coordinates are those of vdb::Volume: voxel (i,j,k) has its value at (i+½, j+½,
+/// k+½).
 struct SparseVolume {
     static constexpr int brickEdge = 8, slotEdge = 9, nodeEdge = 4, nodeEntries = 64, mostLevel = 3;
     static constexpr std::size_t slotTexels = 729;
@@ -81,13 +82,13 @@ struct SparseVolume {
     std::vector<BrickEntry> entries;   ///< 64 for each node, x fastest
     std::vector<std::int32_t> leafOf;  ///< number of the leaf of each entry; −1: none
     std::vector<Slot> slots;
-    int cellBricks = 1;                   ///< edge of a majorant cell, in bricks
-    std::vector<float> cellMajorants;     ///< of each cell, x fastest, of the maximum: the largest texel that interpolation
-                                          ///< within the cell can see; made by fillSlots()
-    int poolWidth = 1;            ///< slots of the pool along x and along y
-    std::uint32_t firstSlot = 0;  ///< number in the pool of the first one
+    int cellBricks = 1;                        ///< edge of a majorant cell, in bricks
+    std::vector<float> cellMajorants;          ///< of each cell, x fastest, of the maximum: the largest texel that
+                                               ///< interpolation within the cell can see; made by fillSlots()
+    int poolWidth = 1;                         ///< slots of the pool along x and along y
+    std::uint32_t firstSlot = 0;               ///< number in the pool of the first one
     DensityFormat format = DensityFormat::r8;  ///< or r16f
-    double relativeError = 0.0;  ///< Σ|q − v| / Σ v of all texels, once they are made
+    double relativeError = 0.0;                ///< Σ|q − v| / Σ v of all texels, once they are made
     float maximum = 0.0F;
     Affine toWorld;  ///< voxel coordinates → metres
     std::string name;
@@ -107,7 +108,8 @@ struct SparseVolume {
     glm::ivec3 poolSize() const;
     std::uint64_t poolBytes() const;
     std::uint64_t indexBytes() const { return 8 * (nodes.size() + entries.size()); }
-    std::uint64_t gpuBytes() const { return poolBytes() + indexBytes(); }
+    /// Pool, index, the collectors' index, which is as large, and two grids of majorants.
+    std::uint64_t gpuBytes() const;
 };
 
 /// The level of a cube of voxels: the largest that may stand for it. `minimum` and `edge` are voxels.

@@ -117,6 +117,15 @@ double volumeOf(const IndexBox& box) {
 
 }  // namespace
 
+void append(Survey& survey, Survey&& part) {
+    survey.blocks.insert(survey.blocks.end(), part.blocks.begin(), part.blocks.end());
+    if (!part.occupied.empty()) include(survey.occupied, part.occupied);
+    survey.mass += part.mass;
+    std::vector<BlockContent> blocks = std::move(survey.blocks);
+    survey = merge(std::move(survey), part);
+    survey.blocks = std::move(blocks);
+}
+
 Survey surveyField(const SparseField& field, const Check& check) {
     std::vector<BlockContent> contents(field.blocks.size());
     Survey survey = tbb::parallel_reduce(

@@ -38,6 +38,9 @@ struct Survey {
 /// Errors: what `check` throws.
 Survey surveyField(const SparseField& field, const Check& check);
 
+/// Adds the survey of more blocks of a field, which come after those that there are.
+void append(Survey& survey, Survey&& part);
+
 /// Makes negative, infinite and undefined values 0.
 void clampValues(SparseField& field);
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "cloud/bricks.h"
 #include "light/light_field.h"
 #include "medium/fog_media.h"
 #include "render/importance.h"
@@ -62,11 +63,12 @@ class Maker {
 
     World make() {
         const Stopwatch loading;
-        const CloudVolumes volumes = load();
+        CloudVolumes volumes = load();
         const std::vector<vdb::PlacedVolume> placed = volumes.placed();
         report_.loadSeconds = loading.seconds();
         makeCamera(scene_.camera, scene_.image, world_.bounds);  // what is wrong with it shows before the work
         const Stopwatch preparing;
+        makePool(volumes.bricks);
         world_.light.resize(world_.instances.size());
         for (std::size_t i = 0; i < placed.size(); ++i) prepare(i, placed[i]);
         findReachingLight(world_);
@@ -95,6 +97,8 @@ class Maker {
   private:
     /// The volumes of all clouds; places the instances.
     CloudVolumes load();
+    /// Texels of all fields that are in bricks.
+    void makePool(std::vector<vdb::SparseVolume>& bricks);
     void prepare(std::size_t number, const vdb::PlacedVolume& placed);
     const cloud::Asset* findAsset(std::size_t number, const vdb::Volume* volume, double reducedExtinction) const;
     void lightUp();
@@ -112,10 +116,11 @@ class Maker {
         double reducedExtinction = 0.0;
     };
     std::vector<Prepared> prepared_;
+    std::shared_ptr<const gpu::Image> pool_;  ///< null where fields are dense
 };
 
 CloudVolumes Maker::load() {
-    CloudVolumes volumes = loadClouds(scene_, options_.report, options_.check);
+    CloudVolumes volumes = loadClouds(scene_, options_.report, options_.check, FieldStorage::asWanted);
     report_.warnings = std::move(volumes.warnings);
     report_.clouds = summarise(scene_, volumes);
     if (options_.loaded) options_.loaded(report_.clouds, report_.warnings);
@@ -133,6 +138,13 @@ CloudVolumes Maker::load() {
     }
     world_.bounds = unite(bounds);
     return volumes;
+}
+
+void Maker::makePool(std::vector<vdb::SparseVolume>& bricks) {
+    std::vector<vdb::SparseVolume*> volumes;
+    for (vdb::SparseVolume& volume : bricks)
+        if (!volume.empty()) volumes.push_back(&volume);
+    if (!volumes.empty()) pool_ = cloud::makePool(context_, volumes, options_.check);
 }
 
 /// An asset that was prepared for another instance in the same way.
@@ -162,7 +174,9 @@ void Maker::prepare(std::size_t number, const vdb::PlacedVolume& placed) {
         medium.extinction * static_cast<double>(medium.tables.scatterFraction) * (1.0 - forward);
     instance.asset = findAsset(number, &volume, options.reducedExtinction);
     if (instance.asset == nullptr) {
-        world_.assets.push_back(std::make_shared<const cloud::Asset>(cloud::prepare(context_, placed, options)));
+        world_.assets.push_back(std::make_shared<const cloud::Asset>(
+            pool_ ? cloud::prepareBricks(context_, *placed.bricks, placed.toWorld, pool_, options)
+                  : cloud::prepare(context_, placed, options)));
         instance.asset = world_.assets.back().get();
         if (instance.asset->tree.limited)
             report_.warnings.push_back("samples of the gradient asked for more than " +

@@ -44,5 +44,6 @@ std::vector<Key> atmosphereKeys();
 std::vector<Key> timeKeys();  ///< time, moon, and what of the sun goes with them
 std::vector<Key> phaseKeys();
 std::vector<Key> fieldKeys();
+std::vector<Key> storageKeys();
 
 }  // namespace lumulus::scene

@@ -136,10 +136,10 @@ std::vector<Key> preparationKeys() {
                [](Draft& d, const Value& v) { d.scene.preparation.influenceRadius = v.number; }),
         integer("preparation.max_leaves", {1.0, 16777216.0}, "32768", "Largest number of leaves.",
                 [](Draft& d, const Value& v) { d.scene.preparation.maxLeaves = static_cast<int>(v.integer); }),
-        number(
-            "preparation.memory_budget", {1.0, 1048576.0}, "512.0",
-            "MiB for the density volumes of all clouds on the GPU. Grids that need more are averaged to larger voxels.",
-            [](Draft& d, const Value& v) { d.scene.preparation.memoryBudget = v.number; }),
+        number("preparation.memory_budget", {1.0, 1048576.0}, "512.0",
+               "MiB for the densities of all clouds on the GPU. What needs more is stored at coarser levels where the "
+               "picture shows it smallest, or averaged to larger voxels.",
+               [](Draft& d, const Value& v) { d.scene.preparation.memoryBudget = v.number; }),
     };
 }
 
@@ -285,8 +285,8 @@ const std::vector<Key>& schema() {
     static const std::vector<Key> all = [] {
         std::vector<Key> keys;
         for (const auto& part : {imageAndCameraKeys(), timeKeys(), sunAndSkyKeys(), atmosphereKeys(), groundKeys(),
-                                 cloudKeys(), phaseKeys(), fieldKeys(), preparationKeys(), photonMapAndDrawKeys(),
-                                 fogKeys(), mediumKeys(), surfaceKeys()}) {
+                                 cloudKeys(), phaseKeys(), fieldKeys(), preparationKeys(), storageKeys(),
+                                 photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys()}) {
             keys.insert(keys.end(), part.begin(), part.end());
         }
         return keys;

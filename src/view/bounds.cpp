@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "vdb/sparse_volume.h"
+
 namespace lumulus {
 
 std::array<glm::dvec3, 8> Bounds::corners() const {
@@ -48,6 +50,7 @@ VoxelBox filledRow(const vdb::Volume& volume, int y, int z) {
 }
 
 constexpr int edge = 4;  // of a bundle of rows
+constexpr int leafEdge = vdb::LeafTable::edge;
 
 /// The filled part of a bundle.
 VoxelBox filledBundle(const vdb::Volume& volume, int y0, int z0) {
@@ -65,7 +68,19 @@ struct Line {
     std::array<int, 2> place() const { return {y, z}; }
 };
 
-/// The lines of all bundles that are filled, by place; each place once.
+/// By place; each place once.
+std::vector<Line> mergedLines(std::vector<Line> lines) {
+    std::ranges::sort(lines, {}, &Line::place);
+    std::vector<Line> merged;
+    for (const Line& line : lines) {
+        if (merged.empty() || merged.back().place() != line.place()) merged.push_back(line);
+        merged.back().low = std::min(merged.back().low, line.low);
+        merged.back().high = std::max(merged.back().high, line.high);
+    }
+    return merged;
+}
+
+/// The lines of all bundles that are filled.
 std::vector<Line> outerLines(const vdb::Volume& volume, VoxelBox& all) {
     std::vector<Line> lines;
     for (int z = 0; z < volume.size.z; z += edge) {
@@ -78,19 +93,24 @@ std::vector<Line> outerLines(const vdb::Volume& volume, VoxelBox& all) {
                     lines.push_back({atY, atZ, bundle.low.x, bundle.high.x});
         }
     }
-    std::ranges::sort(lines, {}, &Line::place);
-    std::vector<Line> merged;
-    for (const Line& line : lines) {
-        if (merged.empty() || merged.back().place() != line.place()) merged.push_back(line);
-        merged.back().low = std::min(merged.back().low, line.low);
-        merged.back().high = std::max(merged.back().high, line.high);
+    return mergedLines(std::move(lines));
+}
+
+/// The lines of all rows of leaves.
+std::vector<Line> outerLines(const vdb::SparseVolume& volume, VoxelBox& all) {
+    std::vector<Line> lines;
+    for (const vdb::LeafTable::Leaf& leaf : volume.leaves.leaves) {
+        const VoxelBox box{leafEdge * leaf.at, leafEdge * (leaf.at + 1)};
+        all.add(box);
+        for (const int atY : {box.low.y, box.high.y})
+            for (const int atZ : {box.low.z, box.high.z}) lines.push_back({atY, atZ, box.low.x, box.high.x});
     }
-    return merged;
+    return mergedLines(std::move(lines));
 }
 
 /// Ends of the lines that are no mean of their neighbours' and the other end: those others lie in the convex hull of
 /// the rest, and whoever looks at the cloud's outline need not look at them.
-std::vector<glm::ivec3> outerEnds(const std::vector<Line>& lines) {
+std::vector<glm::ivec3> outerEnds(const std::vector<Line>& lines, int apart) {
     const auto find = [&](int y, int z) {
         const auto found = std::ranges::lower_bound(lines, std::array<int, 2>{y, z}, {}, &Line::place);
         return found != lines.end() && found->y == y && found->z == z ? &*found : nullptr;
@@ -98,7 +118,7 @@ std::vector<glm::ivec3> outerEnds(const std::vector<Line>& lines) {
     std::vector<glm::ivec3> ends;
     for (const Line& line : lines) {
         bool low = true, high = true;
-        for (const glm::ivec2 aside : {glm::ivec2(edge, 0), glm::ivec2(0, edge)}) {
+        for (const glm::ivec2 aside : {glm::ivec2(apart, 0), glm::ivec2(0, apart)}) {
             const Line* before = find(line.y - aside.x, line.z - aside.y);
             const Line* after = find(line.y + aside.x, line.z + aside.y);
             if (before == nullptr || after == nullptr) continue;
@@ -117,8 +137,9 @@ Bounds boundsOf(const vdb::PlacedVolume& cloud) {
     const vdb::Volume& volume = *cloud.volume;
     Bounds bounds;
     VoxelBox all;
-    for (const glm::ivec3& corner : outerEnds(outerLines(volume, all)))
-        bounds.outline.push_back(cloud.toWorld.point(glm::dvec3(corner)));
+    const std::vector<glm::ivec3> ends = cloud.bricks == nullptr ? outerEnds(outerLines(volume, all), edge)
+                                                                 : outerEnds(outerLines(*cloud.bricks, all), leafEdge);
+    for (const glm::ivec3& corner : ends) bounds.outline.push_back(cloud.toWorld.point(glm::dvec3(corner)));
     if (!all.filled()) all = {glm::ivec3(0), volume.size};
     bounds.centre = cloud.toWorld.point(0.5 * glm::dvec3(all.low + all.high));
     const glm::dvec3 half = 0.5 * glm::dvec3(all.high - all.low);

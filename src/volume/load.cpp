@@ -7,6 +7,8 @@
 #include "vdb/load.h"
 #include "vdb/procedural.h"
 #include "vdb/transform.h"
+#include "volume/load_bricks.h"
+#include "volume/source.h"
 #include "volume/summary.h"
 
 namespace lumulus {
@@ -20,19 +22,6 @@ auto sourceOf(const scene::Cloud& cloud) {
     return std::tuple(cloud.vdb, file ? cloud.grid : std::string(), file ? std::string() : cloud.procedural,
                       file ? 0 : cloud.resolution, file ? 0 : cloud.seed, file && cloud.clamp);
 }
-
-/// A field as its source gives it, and how far its memory can be told.
-struct Source {
-    const scene::Cloud* cloud;  ///< the first one of this source
-    std::size_t index;          ///< of that cloud in the scene
-    vdb::LoadResult loaded;
-
-    bool isFile() const { return !cloud->vdb.empty(); }
-    /// Metres from voxel coordinates under a transform of the scene.
-    vdb::Affine placeUnder(const glm::dmat4& transform, const std::string& where) const {
-        return vdb::composed(vdb::composeTransforms(transform, loaded.gridToWorld, where), loaded.voxelToGrid);
-    }
-};
 
 /// MiB at the two bytes that a voxel takes on the GPU.
 double sizeOf(const vdb::Volume& volume) {
@@ -112,7 +101,7 @@ std::vector<Source> differentSources(const std::vector<scene::Cloud>& clouds, st
         const auto same = std::ranges::find_if(
             sources, [&](const Source& source) { return sourceOf(*source.cloud) == sourceOf(clouds[i]); });
         volumeOf.push_back(static_cast<std::size_t>(same - sources.begin()));
-        if (same == sources.end()) sources.push_back({&clouds[i], i, {}});
+        if (same == sources.end()) sources.push_back({&clouds[i], i, {}, {}});
     }
     return sources;
 }
@@ -121,28 +110,33 @@ std::vector<Source> differentSources(const std::vector<scene::Cloud>& clouds, st
 
 std::vector<vdb::PlacedVolume> CloudVolumes::placed() const {
     std::vector<vdb::PlacedVolume> result;
-    for (const Cloud& cloud : clouds) result.emplace_back(volumes[cloud.volume], cloud.toWorld);
+    for (const Cloud& cloud : clouds) {
+        vdb::PlacedVolume& placed = result.emplace_back(volumes[cloud.volume], cloud.toWorld);
+        if (isSparse()) placed.bricks = &bricks[cloud.volume];
+    }
     return result;
 }
 
-CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const Check& check) {
+CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const Check& check, FieldStorage storage) {
     constexpr double treesPerBudget = 2.0, treesAlways = 4096.0;
     const double budget = scene.preparation.memoryBudget;
     const vdb::ReadLimits limits{check, std::max(treesAlways, treesPerBudget * budget)};
     std::vector<std::size_t> volumeOf;
     std::vector<Source> sources = differentSources(scene.clouds, volumeOf);
-    loadAll(sources, budget, report, limits);
+    const bool sparse = storage == FieldStorage::asWanted && wantsBricks(scene.preparation, sources, limits);
+    if (sparse) {
+        for (Source& source : sources)
+            if (source.isFile())
+                readBricks(source, report, limits);
+            else
+                source.loaded = load(*source.cloud, source.index, budget, report, limits);
+    } else {
+        loadAll(sources, budget, report, limits);
+    }
     CloudVolumes result;
     for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
         const std::string where = keysOf(scene, i) + ".transform";
         result.clouds.push_back({volumeOf[i], sources[volumeOf[i]].placeUnder(scene.clouds[i].transform, where), {}});
-    }
-    std::vector<vdb::ColumnSums> sums;
-    for (const Source& source : sources) sums.push_back(vdb::columnSums(source.loaded.volume, check));
-    for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
-        CloudVolumes::Cloud& cloud = result.clouds[i];
-        const double extinction = scene.clouds[i].extinction * scene.clouds[i].densityScale;
-        cloud.thickness = vdb::opticalThickness(sums[cloud.volume], cloud.toWorld, extinction);
     }
     for (Source& source : sources) {
         for (const std::string& warning : source.loaded.warnings) {
@@ -150,6 +144,16 @@ CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const C
             result.warnings.push_back(alone ? warning : keysOf(scene, source.index) + ": " + warning);
         }
         result.volumes.push_back(std::move(source.loaded.volume));
+        if (sparse) result.bricks.push_back(std::move(source.bricks));
+    }
+    if (sparse) layBricks(scene, result, check);
+    std::vector<vdb::ColumnSums> sums;
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        sums.push_back(sparse ? vdb::columnSums(result.bricks[i]) : vdb::columnSums(result.volumes[i], check));
+    for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
+        CloudVolumes::Cloud& cloud = result.clouds[i];
+        const double extinction = scene.clouds[i].extinction * scene.clouds[i].densityScale;
+        cloud.thickness = vdb::opticalThickness(sums[cloud.volume], cloud.toWorld, extinction);
     }
     for (std::string& warning : warningsOf(summarise(scene, result))) result.warnings.push_back(std::move(warning));
     return result;

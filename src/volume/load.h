@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 #include "vdb/optical_thickness.h"
 #include "vdb/placed_volume.h"
+#include "vdb/sparse_volume.h"
 
 namespace lumulus {
 
@@ -22,13 +23,18 @@ struct CloudVolumes {
         vdb::OpticalThickness thickness;
     };
 
-    std::vector<vdb::Volume> volumes;   ///< at their own places, without the scene's `transform`
-    std::vector<Cloud> clouds;          ///< as many as the scene has, in its order
-    std::vector<std::string> warnings;  ///< what a person should know, one line each
+    std::vector<vdb::Volume> volumes;       ///< at their own places, without the scene's `transform`
+    std::vector<vdb::SparseVolume> bricks;  ///< as many, laid out, where the fields are in bricks, else none
+    std::vector<Cloud> clouds;              ///< as many as the scene has, in its order
+    std::vector<std::string> warnings;      ///< what a person should know, one line each
 
-    /// The clouds one by one. They point into `volumes`.
+    bool isSparse() const { return !bricks.empty(); }
+    /// The clouds one by one. They point into `volumes` and `bricks`.
     std::vector<vdb::PlacedVolume> placed() const;
 };
+
+/// How fields may be stored: as voxels of the whole box, or as the scene's `preparation.storage` has it.
+enum class FieldStorage { dense, asWanted };
 
 /// Loads or makes the clouds of a scene. All fields together keep to `preparation.memory_budget` as far as files go:
 /// procedural clouds have the resolution that the scene asks for. Where the rest of the budget is too small, files that
@@ -36,7 +42,10 @@ struct CloudVolumes {
 /// left. Trees take twice the budget or 4 GiB at most while they are read. Errors: InputError for bad grids, a
 /// transform that is singular or a budget below one voxel; Error where interrupted, or what `report` and `check` throw.
 /// `check` is asked on any thread, by several at once.
+///
+/// Fields in bricks are not averaged: what does not fit the budget (pool, indices, majorants) has coarser levels where
+/// the scene's camera sees voxels smallest. Values of files come later, leaf by leaf (vdb::fillSlots).
 CloudVolumes loadClouds(const scene::Scene& scene, const Report& report = noReport,
-                        const Check& check = stopIfInterrupted);
+                        const Check& check = stopIfInterrupted, FieldStorage storage = FieldStorage::dense);
 
 }  // namespace lumulus
