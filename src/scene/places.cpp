@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <istream>
 #include <string_view>
@@ -156,6 +157,14 @@ Places readPlaces(std::istream& file, const std::string& name, std::size_t most)
 }
 
 Places readPlaces(const std::filesystem::path& file, std::size_t most) {
+    constexpr std::uintmax_t mostBytes = std::uintmax_t{256} << 20;
+    std::error_code ec;
+    // a pipe would be waited for
+    if (std::filesystem::exists(file, ec) && !std::filesystem::is_regular_file(file, ec))
+        throw InputError("this is no file", file.string(), "give a CSV file of places");
+    if (const std::uintmax_t bytes = std::filesystem::file_size(file, ec); !ec && bytes > mostBytes)
+        throw InputError(fmt::format("the file has {} MiB, more than {}", bytes >> 20, mostBytes >> 20), file.string(),
+                         "leave rows out");
     std::ifstream stream(file, std::ios::binary);
     if (!stream)
         throw InputError("cannot read the file: " + std::generic_category().message(errno), file.string(),

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <sstream>
 
@@ -74,6 +75,17 @@ TEST(Places, BadHeadersSayHowTheyAreWritten) {
     for (const char* text : {"1,2,3\n", "x,y\n1,2\n", "x,z,y\n1,2,3\n", "x,y,z,scale\n1,2,3,1\n", "", "\n\n"})
         EXPECT_THAT(messageOf(text), HasSubstr("x,y,z,yaw,scale,extinction")) << text;
     EXPECT_THAT(messageOf("x,y,z\n"), HasSubstr("the file has no places (places.csv)"));
+}
+
+TEST(Places, WhatIsNoFileIsNotWaitedFor) {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path pipe = folder / "pipe.csv", large = folder / "large.csv";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THROW(readPlaces(pipe, 10), InputError);
+    EXPECT_THROW(readPlaces(folder / "none.csv", 10), InputError);
+    test::writeAll(large, "x,y,z\n");
+    std::filesystem::resize_file(large, std::uintmax_t{257} << 20);
+    EXPECT_THROW(readPlaces(large, 10), InputError);
 }
 
 TEST(Places, PathsAreThoseOfTheScene) {
