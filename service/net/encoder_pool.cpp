@@ -13,11 +13,11 @@ EncoderPool::~EncoderPool() {
     stop();
 }
 
-void EncoderPool::submit(std::uint64_t lane, Task task) {
+void EncoderPool::submit(std::uint64_t lane, std::chrono::nanoseconds length, Task task) {
     {
         const std::lock_guard lock(mutex_);
         if (stopping_) return;
-        queue_.push_back({lane, std::move(task)});
+        queue_.push_back({lane, std::chrono::steady_clock::now() + length, std::move(task)});
     }
     wake_.notify_one();
 }
@@ -34,9 +34,15 @@ void EncoderPool::stop() {
         if (thread.joinable()) thread.join();
 }
 
-/// With the lock held: the oldest task of a lane that is free.
+/// With the lock held: of the oldest tasks of all lanes that are free, the one that could have been done first.
 std::deque<EncoderPool::Entry>::iterator EncoderPool::next() {
-    return std::ranges::find_if(queue_, [this](const Entry& entry) { return !busy_.contains(entry.lane); });
+    std::set<std::uint64_t> passed = busy_;
+    auto best = queue_.end();
+    for (auto it = queue_.begin(); it != queue_.end(); ++it) {
+        if (!passed.insert(it->lane).second) continue;
+        if (best == queue_.end() || it->couldBeDone < best->couldBeDone) best = it;
+    }
+    return best;
 }
 
 void EncoderPool::work() {
@@ -44,9 +50,9 @@ void EncoderPool::work() {
     while (true) {
         wake_.wait(lock, [this] { return stopping_ || next() != queue_.end(); });
         if (stopping_) return;
-        const auto oldest = next();
-        Entry entry = std::move(*oldest);
-        queue_.erase(oldest);
+        const auto chosen = next();
+        Entry entry = std::move(*chosen);
+        queue_.erase(chosen);
         busy_.insert(entry.lane);
         lock.unlock();
         entry.task();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -7,12 +8,15 @@
 #include <mutex>
 #include <set>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace lumulus::service {
 
 /// Threads that work off tasks. Those of one lane are worked off one after the other, in the order in which they came,
-/// so that a connection gets its frames in order. Holds as many tasks as it is given: who submits them bounds them.
+/// so that a connection gets its frames in order. Of several lanes the task comes next that could have been done first:
+/// a short one passes long ones, but none waits for ever. Holds as many tasks as it is given: who submits them bounds
+/// them.
 class EncoderPool {
   public:
     using Task = std::function<void()>;
@@ -22,14 +26,16 @@ class EncoderPool {
     EncoderPool& operator=(const EncoderPool&) = delete;
     ~EncoderPool();
 
-    /// Tasks must not throw. After stop() they are dropped.
-    void submit(std::uint64_t lane, Task task);
+    /// Takes a task that is foreseen to take so long. Tasks must not throw. After stop() they are dropped.
+    void submit(std::uint64_t lane, std::chrono::nanoseconds length, Task task);
+    void submit(std::uint64_t lane, Task task) { submit(lane, {}, std::move(task)); }
     /// Drops what waits, and returns when the tasks at hand have ended.
     void stop();
 
   private:
     struct Entry {
         std::uint64_t lane = 0;
+        std::chrono::steady_clock::time_point couldBeDone;
         Task task;
     };
 

@@ -111,8 +111,10 @@ RenderService::Outlets RenderBridge::outlets(std::function<void(std::exception_p
     outlets.begun = std::move(begun);
     outlets.encode = [this](FrameTask task) {
         const ClientId client = task.job.client;
+        constexpr std::uint64_t nanosecondsPerByte = 20;  // of what pictures hold: about, for the order alone
+        const std::chrono::nanoseconds length(nanosecondsPerByte * task.memory.bytes());
         // std::function wants what can be copied
-        encoders_.submit(client,
+        encoders_.submit(client, length,
                          [this, shared = std::make_shared<const FrameTask>(std::move(task))] { encode(*shared); });
     };
     outlets.mostEncoding = std::size_t{2} * encoderThreads();

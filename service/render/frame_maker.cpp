@@ -1,6 +1,7 @@
 #include "service/render/frame_maker.h"
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -15,19 +16,26 @@ namespace {
 const Failure shuttingDown{"shutting_down", "the service is shutting down", {}};
 constexpr const char* noMemory = "there is no memory for so many pixels now: ask for fewer, or later";
 
+}  // namespace
+
 /// Puts a slot among those at which work is under way, while it lives.
-class Busy {
+class FrameMaker::Busy {
   public:
-    Busy(std::vector<const SceneSlot*>& busy, const SceneSlot& slot) : busy_(busy) { busy_.push_back(&slot); }
+    Busy(FrameMaker& maker, const SceneSlot& slot) : maker_(maker) {
+        const auto now = Clock::now();
+        maker_.busy_.push_back({&slot, now, now, maker_.others_});
+    }
     Busy(const Busy&) = delete;
     Busy& operator=(const Busy&) = delete;
-    ~Busy() { busy_.pop_back(); }
+    ~Busy() { maker_.busy_.pop_back(); }
 
   private:
-    std::vector<const SceneSlot*>& busy_;
+    FrameMaker& maker_;
 };
 
-}  // namespace
+double FrameMaker::workedSince(Clock::time_point begun, Clock::duration othersBefore) const {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begun - (others_ - othersBefore)).count();
+}
 
 FrameMaker::FrameMaker(Instruments& instruments, Host host)
     : metrics_(instruments.metrics), log_(instruments.log), memory_(instruments.memory), host_(std::move(host)) {}
@@ -67,7 +75,7 @@ void FrameMaker::apply(const std::vector<PendingChanges::Change>& changes) {
 
 /// Errors: those of the scene.
 void FrameMaker::trace(const SlotPointer& slot, bool generation) {
-    const Busy busy(busy_, *slot);
+    const Busy busy(*this, *slot);
     if (generation) {
         slot->traceGeneration();
         metrics_.add(Metrics::generationsTraced);
@@ -114,7 +122,7 @@ MemoryBudget::Share FrameMaker::roomFor(std::uint64_t bytes) {
     return std::move(*share);
 }
 
-void FrameMaker::make(Job job) {
+void FrameMaker::make(const Job& job) {
     SlotPointer slot;
     bool closing = false;
     std::optional<Failure> failure;
@@ -125,13 +133,22 @@ void FrameMaker::make(Job job) {
         failure = host_.lights.takeFailure(job.client);
     }
     if (failure) return fail(job, *failure);
+    const auto begin = Clock::now();
+    const Clock::duration othersBefore = others_;
+    makeFor(job, slot, closing);
+    const std::lock_guard lock(host_.mutex);
+    host_.scheduler.charge(job.client, workedSince(begin, othersBefore));
+}
+
+/// The same for a client who sees `slot`.
+void FrameMaker::makeFor(const Job& job, SlotPointer slot, bool closing) {
     try {
         if (job.cancelled->load()) throw Cancelled{};
         if (!slot && closing) throw RequestError(shuttingDown.code, shuttingDown.text);
         if (!slot) throw RequestError("no_scene", "load a scene first");
         if (const auto* composite = std::get_if<Composite>(job.work.get())) {
             MemoryBudget::Share memory = roomFor(SceneSlot::pictureBytes(composite->pixels.size() / 16));
-            const Busy busy(busy_, *slot);
+            const Busy busy(*this, *slot);
             handOver(job, slot->composite(job, *composite), slot, std::move(memory));
         } else {
             const auto& frame = std::get<FrameRequest>(*job.work);
@@ -152,6 +169,7 @@ void FrameMaker::make(Job job) {
 }
 
 void FrameMaker::makeFrame(Job job, const FrameRequest& frame, SlotPointer slot) {
+    if (!job.begun && !frame.light.empty() && !slot->canChange()) return waitFor(job, slot);
     // once: of two lights that clients ask for alternately, neither would ever see all its generations
     if (!job.begun) slot->apply(frame.light);
     job.begun = true;
@@ -163,14 +181,9 @@ void FrameMaker::makeFrame(Job job, const FrameRequest& frame, SlotPointer slot)
     // between the steps of other work, which is to go on soon
     const bool mayTrace = slot->canTrace() && (busy_.empty() || slot->tracesQuickly());
     if (!hurry && slot->needsGeneration(job, frame)) {
-        if (mayTrace) trace(slot, true);
-        bool kept = false;
-        {
-            const std::lock_guard lock(host_.mutex);
-            kept = host_.scenes.shownTo(job.client) == slot && host_.scheduler.putBack(job);
-        }
-        if (!kept) leaveOut(job);
-        return;
+        if (!mayTrace) return waitFor(job, slot);
+        trace(slot, true);
+        return putBack(job, slot);
     }
     // a stream without a budget refines as it goes
     const bool refines = job.stream && !frame.budget.milliseconds && !frame.budget.photons && slot->wantsGeneration();
@@ -178,7 +191,7 @@ void FrameMaker::makeFrame(Job job, const FrameRequest& frame, SlotPointer slot)
     auto memory = memory_.take(MemoryBudget::frames, slot->frameBytes(frame));
     if (!memory && job.stream) return leaveOut(job);
     if (!memory) throw RequestError("busy", noMemory);
-    const Busy busy(busy_, *slot);
+    const Busy busy(*this, *slot);
     FrameResult drawn = slot->draw(job, frame);
     publish(*slot);
     handOver(job, std::move(drawn), slot, std::move(*memory));
@@ -194,31 +207,73 @@ double FrameMaker::untilDue() {
     return std::clamp(left, SceneSlot::shortRound, SceneSlot::longRound);
 }
 
-double FrameMaker::interject(const SceneSlot& slot) {
-    constexpr std::size_t deepest = 4;
-    if (busy_.empty() || busy_.back() != &slot || busy_.size() >= deepest) return SceneSlot::longRound;
-    const auto seesFree = [this](ClientId client) {
-        const SlotPointer shown = host_.scenes.shownTo(client);
-        return shown && shown->canDraw();
-    };
+/// Makes the changes of light that can be made between two steps.
+void FrameMaker::applyBetween() {
     std::vector<PendingChanges::Change> changes;
     {
         const std::lock_guard lock(host_.mutex);
-        if (host_.closing || host_.encoding.full()) return SceneSlot::shortRound;
         changes = host_.changes.takeWhere([&](const PendingChanges::Change& change) {
             const SlotPointer shown = host_.scenes.shownTo(change.client);
-            return change.slot->canDraw() && !(shown && !shown->canDraw());
+            return change.slot->canChange() && !(shown && !shown->canChange());
         });
     }
     apply(changes);
+}
+
+/// Makes the next picture that is foreseen to take at most so many milliseconds. Returns whether there was one.
+bool FrameMaker::makeOther(double limit) {
     std::optional<Job> job;
     {
         const std::lock_guard lock(host_.mutex);
+        if (host_.closing || host_.encoding.full()) return false;
+        const auto allowed = [&](ClientId client) {
+            const SlotPointer shown = host_.scenes.shownTo(client);
+            return shown && shown->canDraw() && host_.scheduler.lastCost(client) <= limit &&
+                   std::ranges::find(waiting_, client) == waiting_.end();
+        };
         const auto revision = [this](ClientId client) { return host_.scenes.revision(client); };
-        job = host_.scheduler.takeBeside(Clock::now(), revision, seesFree);
+        job = host_.scheduler.takeBeside(Clock::now(), revision, allowed);
     }
-    if (job) make(std::move(*job));
+    if (!job) return false;
+    make(std::move(*job));
+    return true;
+}
+
+double FrameMaker::interject(const SceneSlot& slot) {
+    constexpr std::size_t deepest = 4;
+    constexpr double leastWorked = 20.0;  // milliseconds of a picture before another comes within
+    if (busy_.empty() || busy_.back().slot != &slot || busy_.size() >= deepest) return SceneSlot::longRound;
+    const auto begin = Clock::now();
+    const Clock::duration othersBefore = others_;
+    const std::size_t place = busy_.size() - 1;
+    const Clock::duration step = begin - busy_[place].lastStep;
+    const double worked = workedSince(busy_[place].begun, busy_[place].othersBefore);
+    const bool drawing = !slot.canChange();
+    if (!drawing || worked >= leastWorked) {
+        applyBetween();
+        waiting_.clear();
+        const double limit = drawing ? worked : std::numeric_limits<double>::max();
+        while (makeOther(limit) && Clock::now() - begin < step) {
+        }
+    }
+    busy_[place].lastStep = Clock::now();
+    others_ = othersBefore + (busy_[place].lastStep - begin);
     return untilDue();
+}
+
+/// Puts back what cannot go on before work around it does.
+void FrameMaker::waitFor(const Job& job, const SlotPointer& slot) {
+    waiting_.push_back(job.client);
+    putBack(job, slot);
+}
+
+void FrameMaker::putBack(const Job& job, const SlotPointer& slot) {
+    bool kept = false;
+    {
+        const std::lock_guard lock(host_.mutex);
+        kept = host_.scenes.shownTo(job.client) == slot && host_.scheduler.putBack(job);
+    }
+    if (!kept) leaveOut(job);
 }
 
 void FrameMaker::leaveOut(const Job& job) {

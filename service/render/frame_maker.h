@@ -44,17 +44,32 @@ class FrameMaker {
     /// Makes the changes that clients were promised, and learns what encoding cost.
     void applyChanges();
     /// Draws the picture and hands it over, or puts the job back after a generation.
-    void make(Job job);
+    void make(const Job& job);
     /// Traces a generation of photons, or completes a part of the sun's shadow volume.
     void refine(const SlotPointer& slot, bool generation);
-    /// Between the steps of work on `slot`: changes light, and makes a picture that is due, of other scenes or, between
-    /// the rounds of a generation, of this one. Returns the seconds that the next step should take.
+    /// Between the steps of work on `slot`: changes light, and makes pictures that are due for as long as the step has
+    /// taken. A picture waits for those alone that have taken less than it probably will. Returns the seconds that the
+    /// next step should take.
     double interject(const SceneSlot& slot);
 
   private:
+    /// That is under way on a slot.
+    struct Work {
+        const SceneSlot* slot;
+        Clock::time_point begun, lastStep;
+        Clock::duration othersBefore;
+    };
+    class Busy;
+    /// Milliseconds since, but for what was done for others between the steps.
+    double workedSince(Clock::time_point begun, Clock::duration othersBefore) const;
+    bool makeOther(double limit);
+    void applyBetween();
     void apply(const std::vector<PendingChanges::Change>& changes);
     double untilDue();
+    void makeFor(const Job& job, SlotPointer slot, bool closing);
     void makeFrame(Job job, const FrameRequest& frame, SlotPointer slot);
+    void putBack(const Job& job, const SlotPointer& slot);
+    void waitFor(const Job& job, const SlotPointer& slot);
     void trace(const SlotPointer& slot, bool generation);
     void leaveOut(const Job& job);
     void handOver(const Job& job, std::variant<FrameResult, CompositeResult> result, const SlotPointer& slot,
@@ -69,7 +84,9 @@ class FrameMaker {
     EventLog& log_;
     MemoryBudget& memory_;
     Host host_;
-    std::vector<const SceneSlot*> busy_;  // on which work is under way, the outermost first
+    std::vector<Work> busy_;         // the outermost first
+    std::vector<ClientId> waiting_;  // whose picture cannot be made between the steps of the work that is under way
+    Clock::duration others_{};       // for others, between the steps of the work that is under way
 };
 
 }  // namespace lumulus::service

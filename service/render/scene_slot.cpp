@@ -150,16 +150,20 @@ std::size_t SceneSlot::findCloud(const CloudReference& cloud) const {
 void SceneSlot::apply(const LightChange& change, std::optional<std::size_t> cloud) {
     if (!light_->apply(change, cloud)) return;
     ++revision_;
-    if (change.extinction) viewed_.forget();
+    if (change.extinction) forgetViewed();
     // a generation of light that may be much work, and that nobody will see
-    if (change.extinction && tracing_ && !tracesQuickly()) dropsGeneration_ = true;
+    if (change.extinction && tracing_ > 0 && !tracesQuickly()) dropsGeneration_ = true;
 }
 
 bool SceneSlot::revert() {
     const bool reverted = light_->revert();
     if (reverted) ++revision_;
-    dropsGeneration_ = dropsGeneration_ || (reverted && tracing_);
+    dropsGeneration_ = dropsGeneration_ || (reverted && tracing_ > 0);
     return reverted;
+}
+
+void SceneSlot::forgetViewed() {
+    for (Viewer& each : viewers_) each.viewed.forget();
 }
 
 bool SceneSlot::wantsGeneration() const {
@@ -178,7 +182,7 @@ void SceneSlot::traceGeneration() {
     dropsGeneration_ = false;
     {
         const Guarded guarded(*this, nullptr);
-        const Marked tracing(tracing_);
+        const Counted tracing(tracing_);
         CutOff cutOff;
         cutOff.due = [this] { return dropsGeneration_; };
         cutOff.roundSeconds = [this] { return stepSeconds_; };
@@ -187,7 +191,7 @@ void SceneSlot::traceGeneration() {
     if (revision_ == lightBefore) light_->prove();
     costs_.traced(workedSince(start, pausedBefore));
     lastTraced_ = Clock::now();
-    viewed_.forget();
+    forgetViewed();
     tracedAt_.push_back(start);
     while (tracedAt_.size() > static_cast<std::size_t>(renderer_->generations().count)) tracedAt_.pop_front();
     ++revision_;
@@ -246,17 +250,18 @@ View SceneSlot::smallView() const {
 void SceneSlot::probeNoise() {
     const Generations ring = renderer_->generations();
     if (!noise_.wants(ring.count) || ring.current < ring.count || renderer_->sunReduction() != 1) return;
-    const Marked drawing(drawing_);
-    noise_.add(renderer_->draw(smallView(), viewer_), ring.count, ring.photons());
-    viewed_.drawn({smallView()}, renderer_->bounds(), 0.0);
+    Viewer& looking = viewer();
+    const Counted drawing(drawing_);
+    noise_.add(renderer_->draw(smallView(), looking.state), ring.count, ring.photons());
+    looking.viewed.drawn({smallView()}, renderer_->bounds(), 0.0);
 }
 
 /// Draws a small picture twice: the first one compiles shaders, the second one shows what pictures cost.
 void SceneSlot::learnCosts() {
     const std::vector<View> views{smallView()};
     FrameResult first, second;
-    drawViews(views, 1, first);
-    const double enlarging = drawViews(views, 1, second);
+    drawViews(viewer(), views, 1, first);
+    const double enlarging = drawViews(viewer(), views, 1, second);
     noteDrawn(second, workFor(views, 0.0), enlarging);
 }
 
@@ -266,7 +271,7 @@ std::vector<View> SceneSlot::viewsOf(const std::vector<ViewRequest>& requests) c
 
 /// What drawing the views whole has to do. `time` [s] of the wind.
 CostModel::Work SceneSlot::workFor(const std::vector<View>& views, double time) const {
-    CostModel::Work work{views.size(), viewed_.missing(views, renderer_->bounds(), time), 0, 0};
+    CostModel::Work work{views.size(), viewer().viewed.missing(views, renderer_->bounds(), time), 0, 0};
     for (const View& view : views) {
         const auto across = static_cast<std::uint64_t>(renderer_->raysAcross(view));
         work.rays += pixelsOf({view}) * across * across;
@@ -283,7 +288,7 @@ bool SceneSlot::needsGeneration(const Job& job, const FrameRequest& frame) const
         return static_cast<std::uint64_t>(ring.current) * ring.photonsEach < *frame.budget.photons ||
                (ring.current == 0 && *frame.budget.photons > 0);
     if (!frame.budget.milliseconds) return !job.stream;  // a stream gets what is there
-    if (tracing_) return false;                          // as does who cannot wait for the generation on its way
+    if (tracing_ > 0) return false;                      // as does who cannot wait for the generation on its way
     const double left = *frame.budget.milliseconds - millisecondsSince(job.arrived);
     const std::vector<View> views = viewsOf(frame.views);
     CostModel::Work work = workFor(views, frame.time);
@@ -294,13 +299,13 @@ bool SceneSlot::needsGeneration(const Job& job, const FrameRequest& frame) const
 }
 
 /// Returns the milliseconds that enlarging reduced pictures took.
-double SceneSlot::drawViews(const std::vector<View>& views, int reduction, FrameResult& result) {
+double SceneSlot::drawViews(Viewer& looking, const std::vector<View>& views, int reduction, FrameResult& result) {
     double enlarging = 0.0;
     for (const View& view : views) {
         const auto start = Clock::now();
         const auto pausedBefore = paused_;
         const View small = reduction > 1 ? reducedView(view, reduction) : view;
-        ViewResult drawn{renderer_->draw(small, viewer_), 0, 0};
+        ViewResult drawn{renderer_->draw(small, looking.state), 0, 0};
         drawn.drawnWidth = drawn.image.width;
         drawn.drawnHeight = drawn.image.height;
         const auto whole = Clock::now();
@@ -365,14 +370,23 @@ FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {
     const double spent = millisecondsSince(job.arrived) + sun;
     if (limit) result.reduction = costs_.reductionFor(aim * *limit - spent, work, pixels, encoding);
 
+    const double timeAround = std::exchange(time_, frame.time);
     renderer_->setTime(frame.time);
     double enlarging = 0.0;
-    {
+    Viewer& looking = viewer();
+    const auto goBack = [&] {
+        if (drawing_ > 0) renderer_->setTime(time_ = timeAround);
+    };
+    try {
         const Guarded guarded(*this, job.cancelled.get());
-        const Marked drawing(drawing_);
-        enlarging = drawViews(views, result.reduction, result);
+        const Counted drawing(drawing_);
+        enlarging = drawViews(looking, views, result.reduction, result);
+    } catch (...) {
+        goBack();
+        throw;
     }
-    viewed_.drawn(views, renderer_->bounds(), frame.time);
+    goBack();
+    looking.viewed.drawn(views, renderer_->bounds(), frame.time);
     countMemory();
     noteDrawn(result, CostModel::reduced(work, result.reduction, pixels), enlarging);
 
@@ -396,7 +410,7 @@ CompositeResult SceneSlot::composite(const Job& job, const Composite& composite)
     LayeredImage picture;
     std::vector<float> depth = readPixels(composite, picture);
     const Guarded guarded(*this, job.cancelled.get());
-    const Marked drawing(drawing_);
+    const Counted drawing(drawing_);
     result.image = renderer_->throughFog(view, std::move(picture), std::move(depth));
     result.tone = scene::toneOf(scene_.image, std::array<const LayeredImage*, 1>{&result.image});
     return result;

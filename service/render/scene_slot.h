@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <deque>
 #include <functional>
@@ -79,10 +81,11 @@ class SceneSlot {
     bool tracesQuickly() const;
     /// Seconds of the steps of a generation, if pictures are due before it ends. They can be made between two.
     static constexpr double shortRound = 0.004, longRound = 0.02;
-    /// Whether work on the scene is at a step at which its pictures can be made and its light changed, or even a
-    /// generation traced.
-    bool canDraw() const { return !drawing_; }
-    bool canTrace() const { return !drawing_ && !tracing_; }
+    /// Whether work on the scene is at a step at which a picture of it can be made: also within one other, unless a
+    /// filter sees all of that. Light can be changed within none, and a generation traced within no other.
+    bool canDraw() const { return drawing_ == 0 || (drawing_ < viewers_.size() && scene_.fog.media.empty()); }
+    bool canChange() const { return drawing_ == 0; }
+    bool canTrace() const { return drawing_ == 0 && !tracing_; }
     /// Whether pictures show the sun by a shadow volume of reduced resolution.
     bool wantsSun() const { return renderer_->sunReduction() > 1; }
     /// Makes a part of the shadow volume's full resolution.
@@ -133,17 +136,25 @@ class SceneSlot {
         const std::atomic<bool>* cancelledBefore_;
         Clock::time_point deadlineBefore_;
     };
-    /// Sets a flag while it lives.
-    class Marked {
+    /// Counts work of a kind while it lives.
+    class Counted {
       public:
-        explicit Marked(bool& flag) : flag_(flag) { flag_ = true; }
-        Marked(const Marked&) = delete;
-        Marked& operator=(const Marked&) = delete;
-        ~Marked() { flag_ = false; }
+        explicit Counted(std::size_t& count) : count_(count) { ++count_; }
+        Counted(const Counted&) = delete;
+        Counted& operator=(const Counted&) = delete;
+        ~Counted() { --count_; }
 
       private:
-        bool& flag_;
+        std::size_t& count_;
     };
+    /// What looks at the scene, at all views one after the other. It is gone before the renderer.
+    struct Viewer {
+        ViewState state;
+        ViewedLight viewed;
+    };
+    Viewer& viewer() { return viewers_[std::min(drawing_, viewers_.size() - 1)]; }
+    const Viewer& viewer() const { return viewers_[std::min(drawing_, viewers_.size() - 1)]; }
+    void forgetViewed();
 
     RendererOptions options();
     double workedSince(Clock::time_point start, Clock::duration pausedBefore) const;
@@ -156,7 +167,7 @@ class SceneSlot {
     void guard();
     double sharpenShare() const;
     double allowSun(std::optional<double> milliseconds, double picture);
-    double drawViews(const std::vector<View>& views, int reduction, FrameResult& result);
+    double drawViews(Viewer& viewer, const std::vector<View>& views, int reduction, FrameResult& result);
     void noteDrawn(const FrameResult& result, CostModel::Work work, double enlarging);
     std::vector<PassTime> tracePasses();
     PhotonState photons() const;
@@ -174,15 +185,15 @@ class SceneSlot {
     Clock::time_point deadline_ = Clock::time_point::max();
     Clock::duration paused_{};  ///< in step_, which may work for others
     double stepSeconds_ = longRound;
-    bool tracing_ = false, drawing_ = false;
+    std::size_t tracing_ = 0, drawing_ = 0;
     bool dropsGeneration_ = false;  ///< that is traced
     std::unique_ptr<Renderer> renderer_;
-    ViewState viewer_;  ///< of all views of the scene, which are drawn one after the other; gone before the renderer
+    std::array<Viewer, 2> viewers_;    ///< the second one of pictures that come within another
+    double time_ = 0.0;                ///< of the wind, of the picture that is drawn [s]
     std::optional<LightState> light_;  ///< of the renderer
     MemoryBudget::Share memory_;
     SceneDescription description_;
     CostModel costs_;
-    ViewedLight viewed_;  ///< by viewer_
     NoiseEstimate noise_;
     ExposureDesk exposures_;
     std::uint64_t revision_ = 1;

@@ -125,16 +125,36 @@ std::optional<Job> Scheduler::takeBeside(Clock::time_point now, const Revision& 
 
 template <class Condition>
 std::optional<Job> Scheduler::takeWhere(Clock::time_point now, const Revision& revision, const Condition& condition) {
+    std::vector<std::list<ClientId>::iterator> order;
     for (auto it = line_.begin(); it != line_.end(); ++it) {
         Client& client = clients_.at(*it);
         if (blocked(client) || !condition(*it, client)) continue;
+        client.served = std::max(client.served, served_);
+        order.push_back(it);
+    }
+    std::ranges::stable_sort(order, {}, [this](const auto& it) { return clients_.at(*it).served; });
+    for (const auto& it : order) {
+        Client& client = clients_.at(*it);
         if (auto job = takeFrom(*it, client, now, revision)) {
+            served_ = client.served;
             client.current = *job;
             line_.splice(line_.end(), line_, it);
             return job;
         }
     }
     return std::nullopt;
+}
+
+void Scheduler::charge(ClientId id, double milliseconds) {
+    const auto it = clients_.find(id);
+    if (it == clients_.end()) return;
+    it->second.served += milliseconds;
+    it->second.lastCost = milliseconds;
+}
+
+double Scheduler::lastCost(ClientId client) const {
+    const auto it = clients_.find(client);
+    return it == clients_.end() ? 0.0 : it->second.lastCost;
 }
 
 bool Scheduler::putBack(const Job& job) {

@@ -36,9 +36,10 @@ std::shared_ptr<const std::variant<FrameRequest, Composite>> workOf(Work work) {
     return std::make_shared<const std::variant<FrameRequest, Composite>>(std::move(work));
 }
 
-/// Decides which picture is drawn next. Clients are served one after the other; in a channel the newest request
-/// replaces the one before; a client that does not read gets nothing more. Holds a bounded number of requests. Not for
-/// several threads.
+/// Decides which picture is drawn next. Clients share the time of the renderer: who has had the least of it comes
+/// first, and of equals who has waited longest (start-time fair queueing: Goyal, Vin and Cheng 1996). In a channel the
+/// newest request replaces the one before; a client that does not read gets nothing more. Holds a bounded number of
+/// requests. Not for several threads.
 class Scheduler {
   public:
     struct Bounds {
@@ -68,6 +69,10 @@ class Scheduler {
     /// The same while another picture is drawn: of clients that are `allowed` and have none under way.
     std::optional<Job> takeBeside(Clock::time_point now, const Revision& revision,
                                   const std::function<bool(ClientId)>& allowed);
+    /// Work for a client took so many milliseconds of the renderer.
+    void charge(ClientId client, double milliseconds);
+    /// Milliseconds that the last picture of a client took; 0 where it had none.
+    double lastCost(ClientId client) const;
     /// Gives back what take() gave, to go on with it after those of the other clients. False where it was superseded,
     /// or is no longer what its client waits for.
     bool putBack(const Job& job);
@@ -110,6 +115,8 @@ class Scheduler {
         std::vector<Job> encoding;   // are drawn
         std::uint32_t unsent = 0;
         bool waiting = false;
+        double served = 0.0;  // milliseconds, as of `served_`: it does not save up what it did not ask for
+        double lastCost = 0.0;
     };
 
     bool blocked(const Client& client) const { return client.waiting || client.unsent >= bounds_.unsent; }
@@ -128,6 +135,7 @@ class Scheduler {
     Bounds bounds_;
     std::map<ClientId, Client> clients_;
     std::list<ClientId> line_;
+    double served_ = 0.0;  // of the client whose picture was taken last, when it was
 };
 
 }  // namespace lumulus::service

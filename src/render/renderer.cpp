@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "base/error.h"
 #include "base/stopwatch.h"
@@ -165,7 +166,7 @@ LayeredImage Renderer::draw(const View& view, ViewState& viewState) {
     State& s = *state_;
     const Stopwatch watch;
     s.show(viewState.state(), view);
-    s.work.times.clear();
+    const std::vector<gpu::PassTime> ofPictureAround = std::exchange(s.work.times, {});
     if (s.world->photons) {
         s.world->photons->settle();
         frame::addTimes(s.work.times, s.world->photons->times());
@@ -182,6 +183,7 @@ LayeredImage Renderer::draw(const View& view, ViewState& viewState) {
     LayeredImage image = order.picture(viewState.state(), view);
     s.statistics.passes.clear();
     addTimes(s.statistics, s.work.times);
+    s.work.times = ofPictureAround;
     s.statistics.gpuBytes = s.context.memory().used;
     s.statistics.gpuBytesHeld = s.context.memory().held;
     s.statistics.drawSeconds += watch.seconds();

@@ -140,7 +140,7 @@ TEST_F(PhotonRing, ShortRoundsHaveTheSameBitsAndShowTheLightOfBefore) {
     std::vector<std::vector<double>> between;
     Options wanted = test::mapOptions(2000, slots, bands);
     wanted.check = [&] {
-        if (seen != nullptr) between.push_back(watts(seen->light()));
+        if (seen != nullptr && between.size() < 5) between.push_back(watts(seen->light()));
     };
     PhotonMap map(context, cloud, medium, wanted), other(context, cloud, medium, test::mapOptions(2000, slots, bands));
     for (int generation = 0; generation < 3; ++generation) {
@@ -149,8 +149,8 @@ TEST_F(PhotonRing, ShortRoundsHaveTheSameBitsAndShowTheLightOfBefore) {
         between.clear();
         seen = &map;
         int asked = 0;
-        EXPECT_TRUE(
-            map.tryTrace(sunAt(generation), skyAt(0), {{}, false, [&] { return ++asked % 2 == 0 ? 1e-9 : 1e-3; }}));
+        const auto shortTime = [&] { return ++asked < 6 ? 1e-9 : 1e-2; };
+        EXPECT_TRUE(map.tryTrace(sunAt(generation), skyAt(0), {{}, false, shortTime}));
         seen = nullptr;
         EXPECT_GT(asked, 5);
         EXPECT_EQ(map.photonPower(), powerBefore);

@@ -54,7 +54,8 @@ TEST(RendererBeside, HasLightOfItsOwn) {
 /// Between the rounds of a generation pictures can be drawn, which show the light of before, and light can change: the
 /// generation does not count as one of the new light then.
 TEST(RendererBeside, PicturesAndChangesBetweenRounds) {
-    const scene::Scene scene = test::smallScene();
+    scene::Scene scene = test::smallScene();
+    scene.photonMap.photons = 1000000;  // many rounds
     Renderer* between = nullptr;
     std::vector<LayeredImage> drawn;
     RendererOptions options = withRing();
@@ -72,6 +73,7 @@ TEST(RendererBeside, PicturesAndChangesBetweenRounds) {
     between = &renderer;
     ASSERT_TRUE(renderer.traceGeneration(shortRounds));
     ASSERT_EQ(drawn.size(), 3U);
+    between = nullptr;
     for (const LayeredImage& picture : drawn) EXPECT_EQ(picture.layers, before.layers);
     EXPECT_EQ(renderer.generations().current, 2);
     other.traceGeneration();

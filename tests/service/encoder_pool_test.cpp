@@ -42,6 +42,33 @@ TEST(EncoderPool, LanesDoNotWaitForEachOther) {
     both.wait();
 }
 
+/// A short task passes long ones of other lanes, none of its own, and not those that have waited longer than they take.
+TEST(EncoderPool, ShortTasksPassLongOnes) {
+    using std::chrono::hours;
+    std::latch begun(1), goOn(1), all(5);
+    std::vector<int> order;  // one thread
+    EncoderPool pool(1);
+    pool.submit(0, [&] {
+        begun.count_down();
+        goOn.wait();
+    });
+    begun.wait();
+    const auto add = [&](std::uint64_t lane, std::chrono::nanoseconds length, int number) {
+        pool.submit(lane, length, [&, number] {
+            order.push_back(number);
+            all.count_down();
+        });
+    };
+    add(1, hours(2), 1);
+    add(2, hours(1), 2);
+    add(1, {}, 3);
+    add(3, {}, 4);
+    add(4, -hours(1), 5);
+    goOn.count_down();
+    all.wait();
+    EXPECT_EQ(order, (std::vector<int>{5, 4, 2, 1, 3}));
+}
+
 TEST(EncoderPool, WhatWaitsIsDroppedAtTheEnd) {
     std::latch begun(1), goOn(1);
     std::atomic<int> done = 0;

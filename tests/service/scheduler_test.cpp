@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+#include <vector>
+
 #include "service/values/request_error.h"
 
 namespace lumulus::service {
@@ -61,6 +64,31 @@ TEST_F(SchedulerTest, ClientsTakeTurns) {
     EXPECT_EQ(next(), 11U);
     EXPECT_EQ(next(), 12U);
     EXPECT_EQ(next(), 0U);
+}
+
+/// Who has had less of the renderer's time comes first. What a client does not ask for it does not save up.
+TEST_F(SchedulerTest, ClientsShareTheTime) {
+    scheduler.addClient(3);
+    std::uint64_t id = 0;
+    const auto serve = [&](const std::vector<ClientId>& asking) {
+        for (const ClientId client : asking) scheduler.submit(frame(client, ++id));
+        const std::optional<Job> job = take();
+        scheduler.done(*job);
+        const double milliseconds = job->client == 1 ? 100.0 : 20.0;
+        scheduler.charge(job->client, milliseconds);
+        EXPECT_EQ(scheduler.lastCost(job->client), milliseconds);
+        return job->client;
+    };
+    std::map<ClientId, int> frames;
+    for (int i = 0; i < 60; ++i) ++frames[serve({1, 2})];
+    EXPECT_EQ(frames[1], 10);
+    EXPECT_EQ(frames[2], 50);
+    EXPECT_EQ(serve({1, 2, 3}), 3U) << "it has had the least";
+    frames.clear();
+    for (int i = 0; i < 55; ++i) ++frames[serve({1, 2, 3})];
+    EXPECT_NEAR(frames[1], 5, 1);
+    EXPECT_NEAR(frames[2], frames[3], 1) << "it did not save up the time before";
+    EXPECT_EQ(scheduler.lastCost(9), 0.0);
 }
 
 TEST_F(SchedulerTest, BesideAPictureOnlyOthersAreServed) {

@@ -38,7 +38,7 @@ constexpr std::uint32_t sortRows = 16;
 /// Steps of an invocation in one round: a round ends within tenths of a second, so that work can end between two.
 constexpr std::uint32_t stepLimit = 1U << 13U;
 /// The same of a round that may not last long, while nothing is known of the cloud, and the fewest of any round.
-constexpr std::uint32_t firstSteps = 128, fewestSteps = 16;
+constexpr std::uint32_t firstSteps = 128, fewestSteps = 32;
 /// A round of few photons that are left may have this many times as many steps.
 constexpr double mostTailSteps = 16.0;
 /// Seconds after which the next rounds of a generation get fewer steps.
@@ -215,6 +215,7 @@ void GenerationTracer::learnRound(double seconds, std::uint32_t pending) {
     std::uint32_t& steps = params_.mapped<shared::TraceParams>()[0].stepLimit;
     if (2 * pending > invocations_) stepSeconds_ = std::max(seconds / steps, 0.5 * stepSeconds_);
     if (seconds > longRound) steps = std::max(fewestSteps, steps / 2);
+    if (seconds < 0.25 * longRound) steps = std::min(stepLimit, 2 * steps);  // where others had the machine for a while
 }
 
 std::vector<gpu::Binding> GenerationTracer::walkBindings() const {
