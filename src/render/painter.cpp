@@ -19,7 +19,8 @@ Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& d
       features_(featuresOf(world)),
       phase_(makePhaseTables(context, world, features_.grey, phaseTables_)),
       none_(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT),
-      noSquares_(draw::noSquares(context)) {
+      noSquares_(draw::noSquares(context)),
+      noTiles_(context) {
     if (draw.mode == scene::DrawMode::billboards)
         billboards_.emplace(context, instancesOf(world), features_);
     else
@@ -108,7 +109,8 @@ shared::DrawParams Painter::drawParams(const World& world, const ViewState::Stat
                                            static_cast<double>(static_cast<float>(finest)));
     values.instances = static_cast<int>(visible_.size());
     values.samples = view.raysAcross;
-    values.tilesAcross = view.billboards ? view.billboards->tilesAcross() : 0;
+    values.tilesAcross = view.tiles ? view.tiles->across() : 0;
+    if (view.billboards) values.tilesAcross = view.billboards->tilesAcross();
     return values;
 }
 
@@ -127,6 +129,11 @@ void Painter::fillAtlas(GpuWork& work, ViewState::State& view) const {
     work.run([&](gpu::Commands& commands) { view.lightFields->record(commands, fields); });
 }
 
+void Painter::findShown(gpu::Context& context, const World& world, ViewState::State& view) const {
+    view.tiles.reset();
+    if (features_.many) view.tiles.emplace(context, instancesOf(world), view.camera);
+}
+
 void Painter::prepare(GpuWork& work, ViewState::State& view) const {
     if (features_.many) fillAtlas(work, view);
     view.billboards.reset();
@@ -138,7 +145,7 @@ void Painter::recordPixels(gpu::Commands& commands, const draw::DrawInputs& inpu
     if (billboards_)
         billboards_->record(commands, inputs, *view.billboards, push);
     else
-        march_->record(commands, inputs, push);
+        march_->record(commands, inputs, view.tiles ? *view.tiles : noTiles_, push);
 }
 
 /// The points of sparse sampling that are not drawn yet, what can be interpolated between them, and the rest.

@@ -7,6 +7,7 @@
 
 #include "cloud/atlas.h"
 #include "draw/billboards.h"
+#include "draw/instance_tiles.h"
 #include "draw/sparse_sampling.h"
 #include "frame/frame.h"
 #include "light/light_field.h"
@@ -35,7 +36,8 @@ struct ViewState::State {
     std::optional<cloud::Atlas> lightFields;  ///< where the world has several visible instances
     std::map<int, draw::Interpolation> interpolations;  ///< by spacing
     std::optional<draw::Billboards::View> billboards;
-    std::optional<frame::Frame> frame;  ///< where passes follow the drawing
+    std::optional<draw::InstanceTiles> tiles;  ///< where the world has several visible instances
+    std::optional<frame::Frame> frame;         ///< where passes follow the drawing
 };
 
 }  // namespace lumulus
