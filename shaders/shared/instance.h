@@ -36,6 +36,10 @@ struct InstanceParams {
     vec2 airTexel;
 };
 
+/// Of an instance, texels for rays that look for it: three rows of metres to voxels, then its size and a voxel's
+/// length.
+const int INSTANCE_TEXELS = 4;
+
 /// Reciprocals of the atlases' sizes [1/texels]; unused where there is one instance.
 struct AtlasParams {
     vec3 density, light, shadow;

@@ -20,7 +20,8 @@ Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& d
       phase_(makePhaseTables(context, world, features_.grey, phaseTables_)),
       none_(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT),
       noColours_(context, "no colours", glm::ivec2(1), VK_FORMAT_R32G32B32A32_SFLOAT),
-      noSquares_(draw::noSquares(context)) {
+      noSquares_(draw::noSquares(context)),
+      noTiles_(context) {
     if (draw.mode == scene::DrawMode::billboards)
         billboards_.emplace(context, instancesOf(world), features_);
     else
@@ -126,7 +127,8 @@ shared::DrawParams Painter::drawParams(const World& world, const ViewState::Stat
     values.samples = view.raysAcross;
     if (world.lights.ground)
         values.eyeAboveGround = static_cast<float>(view.camera.position.y - world.lights.ground->height);
-    values.tilesAcross = view.billboards ? view.billboards->tilesAcross() : 0;
+    values.tilesAcross = view.tiles ? view.tiles->across() : 0;
+    if (view.billboards) values.tilesAcross = view.billboards->tilesAcross();
     return values;
 }
 
@@ -145,6 +147,11 @@ void Painter::fillAtlas(GpuWork& work, ViewState::State& view) const {
     work.run([&](gpu::Commands& commands) { view.lightFields->record(commands, fields); });
 }
 
+void Painter::findShown(gpu::Context& context, const World& world, ViewState::State& view) const {
+    view.tiles.reset();
+    if (features_.many) view.tiles.emplace(context, instancesOf(world), view.camera);
+}
+
 void Painter::prepare(GpuWork& work, ViewState::State& view) const {
     if (features_.many) fillAtlas(work, view);
     view.billboards.reset();
@@ -156,7 +163,7 @@ void Painter::recordPixels(gpu::Commands& commands, const draw::DrawInputs& inpu
     if (billboards_)
         billboards_->record(commands, inputs, *view.billboards, push);
     else
-        march_->record(commands, inputs, push);
+        march_->record(commands, inputs, view.tiles ? *view.tiles : noTiles_, push);
 }
 
 /// The points of sparse sampling that are not drawn yet, what can be interpolated between them, and the rest.

@@ -29,6 +29,8 @@ class Painter {
     /// billboards as far as the largest.
     Tile shownPart(const World& world, const ViewState::State& view) const;
 
+    /// Finds which pixels may show which instance, before lightView(), which leaves out what is not seen.
+    void findShown(gpu::Context& context, const World& world, ViewState::State& view) const;
     /// Sorts and uploads what the camera of the view needs, after lightView() and before paint().
     void prepare(GpuWork& work, ViewState::State& view) const;
     /// Draws bands of rows of the shown part into `image`, or into the view's frame where `image` is null.
@@ -60,6 +62,7 @@ class Painter {
     gpu::Image none_;  ///< stands for what the scene does not have: shaders never read it, but bindings must be there
     gpu::Image noColours_;
     gpu::Buffer noSquares_;
+    draw::InstanceTiles noTiles_;  ///< for the one instance
 };
 
 }  // namespace lumulus

@@ -12,6 +12,7 @@
 namespace lumulus {
 
 void PictureOrder::drawLight(ViewState::State& state, photon::Part part) {
+    painter->findShown(work.context, world, state);
     lightView(work, world, state, part, bands, shadowReduction);
     painter->prepare(work, state);
 }

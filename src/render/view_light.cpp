@@ -73,10 +73,13 @@ void recordField(gpu::Commands& commands, const photon::PhotonMap& photons, cons
     seen.version = light.version;
 }
 
-/// Instances whose light fields are not what the view needs.
+/// Instances that the view shows, whose light fields are not what it needs.
 std::vector<std::size_t> oldFields(const World& world, const ViewState::State& view, photon::Part part) {
     std::vector<std::size_t> numbers;
-    for (const std::size_t i : world.visible()) {
+    const std::vector<std::size_t> visible = world.visible();
+    for (std::size_t place = 0; place < visible.size(); ++place) {
+        const std::size_t i = visible[place];
+        if (view.tiles && !view.tiles->isListed(place)) continue;
         const light::InstanceLight& light = world.light[i];
         const InstanceView& seen = view.instances[i];
         const bool fits = part == photon::Part::all && seen.version == light.version && seen.eye &&
@@ -135,8 +138,10 @@ glm::vec3 eyeVoxel(const cloud::Instance& instance, const Camera& camera) {
 
 void lightView(GpuWork& work, World& world, ViewState::State& view, photon::Part part, int bands, int shadowReduction) {
     view.instances.resize(world.instances.size());
-    for (const std::size_t i : world.visible())
-        if (world.light[i].part) makeRoom(work.context, world, world.light[i], view.instances[i]);
+    const std::vector<std::size_t> visible = world.visible();
+    for (std::size_t place = 0; place < visible.size(); ++place)
+        if (const std::size_t i = visible[place]; world.light[i].part && (!view.tiles || view.tiles->isListed(place)))
+            makeRoom(work.context, world, world.light[i], view.instances[i]);
     makeShadows(work, world, shadowReduction);
     if (world.photons) makeFields(work, world, view, part, bands);
 }

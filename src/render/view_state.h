@@ -7,6 +7,7 @@
 
 #include "cloud/atlas.h"
 #include "draw/billboards.h"
+#include "draw/instance_tiles.h"
 #include "draw/sparse_sampling.h"
 #include "frame/frame.h"
 #include "frame/sky_pass.h"
@@ -36,8 +37,9 @@ struct ViewState::State {
     std::optional<cloud::Atlas> lightFields;  ///< where the world has several visible instances
     std::map<int, draw::Interpolation> interpolations;  ///< by spacing
     std::optional<draw::Billboards::View> billboards;
-    std::optional<frame::Frame> frame;  ///< where passes follow the drawing
-    std::optional<frame::SkyPass> sky;  ///< where the sky is an atmosphere
+    std::optional<frame::Frame> frame;         ///< where passes follow the drawing
+    std::optional<frame::SkyPass> sky;         ///< where the sky is an atmosphere
+    std::optional<draw::InstanceTiles> tiles;  ///< where the world has several visible instances
 };
 
 }  // namespace lumulus

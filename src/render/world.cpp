@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
 #include "base/error.h"
 #include "base/stopwatch.h"
@@ -10,23 +11,13 @@
 #include "light/light_field.h"
 #include "medium/fog_media.h"
 #include "render/importance.h"
+#include "render/world_assets.h"
 #include "view/camera.h"
 #include "volume/load.h"
 
 namespace lumulus {
 
 namespace {
-
-constexpr double degrees = 3.14159265358979323846 / 180.0;
-
-phase::ScatteringMedium makeMedium(const scene::Scene& scene, const scene::Cloud& from, double maximum) {
-    phase::ScatteringMedium medium;
-    medium.extinction = from.extinction * from.densityScale * maximum;
-    medium.albedo = from.albedo;
-    medium.tables = phase::makeScatteringTables(from.phase, scene.photonMap.forwardCut * degrees, from.albedo,
-                                                scene.photonMap.bands, scene.sun.angularDiameter * degrees);
-    return medium;
-}
 
 /// Share of the sun's light that fog lets through to an instance.
 glm::dvec3 sunThroughFog(const World& world, const cloud::Instance& instance) {
@@ -68,9 +59,9 @@ class Maker {
         report_.loadSeconds = loading.seconds();
         makeCamera(scene_.camera, scene_.image, world_.bounds);  // what is wrong with it shows before the work
         const Stopwatch preparing;
-        makePool(volumes.bricks);
+        const std::shared_ptr<const gpu::Image> pool = makePool(context_, volumes.bricks, options_.check);
         world_.light.resize(world_.instances.size());
-        for (std::size_t i = 0; i < placed.size(); ++i) prepare(i, placed[i]);
+        prepareAssets(context_, scene_, placed, pool, options_, world_, report_);
         findReachingLight(world_);
         lightUp();
         if (!placed.empty()) report_.prepareSeconds = preparing.seconds();
@@ -97,10 +88,6 @@ class Maker {
   private:
     /// The volumes of all clouds; places the instances.
     CloudVolumes load();
-    /// Texels of all fields that are in bricks.
-    void makePool(std::vector<vdb::SparseVolume>& bricks);
-    void prepare(std::size_t number, const vdb::PlacedVolume& placed);
-    const cloud::Asset* findAsset(std::size_t number, const vdb::Volume* volume, double reducedExtinction) const;
     void lightUp();
     photon::Options photonOptions() const;
     void makePhotonMap(const std::vector<std::size_t>& visible);
@@ -110,13 +97,6 @@ class Maker {
     const WorldOptions& options_;
     WorldReport& report_;
     World world_;
-    /// What each instance's asset was prepared from.
-    struct Prepared {
-        const vdb::Volume* volume = nullptr;
-        double reducedExtinction = 0.0;
-    };
-    std::vector<Prepared> prepared_;
-    std::shared_ptr<const gpu::Image> pool_;  ///< null where fields are dense
 };
 
 CloudVolumes Maker::load() {
@@ -125,68 +105,23 @@ CloudVolumes Maker::load() {
     report_.clouds = summarise(scene_, volumes);
     if (options_.loaded) options_.loaded(report_.clouds, report_.warnings);
     std::vector<Bounds> bounds;
+    std::unordered_map<const vdb::Volume*, std::pair<Bounds, vdb::Affine>> known;
     for (const vdb::PlacedVolume& placed : volumes.placed()) {
         const std::size_t number = world_.instances.size();
         cloud::Instance instance;
         instance.name = scene::nameOf(scene_, number);
         instance.voxelToMetres = placed.toWorld.linear;
         instance.origin = placed.toWorld.translation;
-        instance.bounds = boundsOf(placed);
+        const auto first = known.find(placed.volume);
+        instance.bounds = first == known.end() ? boundsOf(placed)
+                                               : movedBounds(first->second.first, first->second.second, placed.toWorld);
+        known.try_emplace(placed.volume, instance.bounds, placed.toWorld);
         instance.sceneExtinction = scene_.clouds[number].extinction;
         bounds.push_back(instance.bounds);
         world_.instances.push_back(std::move(instance));
     }
     world_.bounds = unite(bounds);
     return volumes;
-}
-
-void Maker::makePool(std::vector<vdb::SparseVolume>& bricks) {
-    std::vector<vdb::SparseVolume*> volumes;
-    for (vdb::SparseVolume& volume : bricks)
-        if (!volume.empty()) volumes.push_back(&volume);
-    if (!volumes.empty()) pool_ = cloud::makePool(context_, volumes, options_.check);
-}
-
-/// An asset that was prepared for another instance in the same way.
-const cloud::Asset* Maker::findAsset(std::size_t number, const vdb::Volume* volume, double reducedExtinction) const {
-    for (std::size_t i = 0; i < prepared_.size(); ++i)
-        if (prepared_[i].volume == volume && prepared_[i].reducedExtinction == reducedExtinction &&
-            world_.instances[i].voxelToMetres == world_.instances[number].voxelToMetres)
-            return world_.instances[i].asset;
-    return nullptr;
-}
-
-void Maker::prepare(std::size_t number, const vdb::PlacedVolume& placed) {
-    cloud::Instance& instance = world_.instances[number];
-    const vdb::Volume& volume = *placed.volume;
-    prepared_.push_back({});
-    if (volume.empty()) return;
-    options_.report("preparing the cloud", 0, 1);
-    instance.medium = makeMedium(scene_, scene_.clouds[number], static_cast<double>(volume.maximum));
-    const phase::ScatteringMedium& medium = instance.medium;
-    if (!(medium.extinction > 0.0)) return;
-    cloud::PrepareOptions options;
-    options.preparation = scene_.preparation;
-    options.majorant = scene_.photonMap.majorant;
-    options.keepBlocks = scene_.clouds.size() > 1;
-    const double forward = scene_.photonMap.bands > 1 ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
-    options.reducedExtinction =
-        medium.extinction * static_cast<double>(medium.tables.scatterFraction) * (1.0 - forward);
-    instance.asset = findAsset(number, &volume, options.reducedExtinction);
-    if (instance.asset == nullptr) {
-        world_.assets.push_back(std::make_shared<const cloud::Asset>(
-            pool_ ? cloud::prepareBricks(context_, *placed.bricks, placed.toWorld, pool_, options)
-                  : cloud::prepare(context_, placed, options)));
-        instance.asset = world_.assets.back().get();
-        if (instance.asset->tree.limited)
-            report_.warnings.push_back("samples of the gradient asked for more than " +
-                                       std::to_string(scene_.preparation.maxLeaves) +
-                                       " collectors: light is smeared in those that stay too large; raise "
-                                       "preparation.max_leaves or lower preparation.samples");
-    }
-    prepared_.back() = {&volume, options.reducedExtinction};
-    stopIfInterrupted();
-    options_.report("preparing the cloud", 1, 1);
 }
 
 /// What of the light is made beforehand.

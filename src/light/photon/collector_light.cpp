@@ -37,7 +37,7 @@ struct Media {
     std::vector<float> axisTables() const {
         std::vector<float> values;
         for (const auto* one : tables) {
-            std::vector<float> own = one->axisTable;
+            std::vector<float> own = one->axisTable.values();
             own.resize(static_cast<std::size_t>(shared::AXIS_RINGS * shared::singleScatterAngleCount));
             values.insert(values.end(), own.begin(), own.end());
         }

@@ -68,10 +68,10 @@ WorldWalk::WorldWalk(gpu::Context& context, std::span<const MapPart> parts, cons
       volumes_(volumes),
       inverseCdf_(context, "inverse cdf", 0, gpu::Memory::device),
       gridParams_(context, "merged grid", sizeof(shared::MergedGridParams), gpu::Memory::host) {
-    std::vector<const std::vector<float>*> tables;
+    std::vector<const phase::SharedTable*> tables;
     for (const MapPart& part : parts) {
         ellipsoids_.push_back(ellipsoidOf(*part.asset));
-        const std::vector<float>& table = part.medium.tables.inverseCdf;
+        const phase::SharedTable& table = part.medium.tables.inverseCdf;
         phaseTables_.push_back(-1);
         if (table.empty()) continue;
         const auto same = std::ranges::find_if(tables, [&](const auto* other) { return *other == table; });
