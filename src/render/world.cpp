@@ -133,8 +133,10 @@ void Maker::lightUp() {
         world_.sharedVolumes = std::make_unique<cloud::SharedVolumes>(context_, instances);
     }
     bool scatters = false;
+    std::unordered_map<const cloud::Asset*, std::shared_ptr<light::CellLayouts>> layouts;
     for (const std::size_t i : visible) {
         const cloud::Instance& instance = world_.instances[i];
+        world_.light[i].layouts = layouts.try_emplace(instance.asset, world_.light[i].layouts).first->second;
         const bool shades = visible.size() > 1 || instance.medium.scatters();
         scatters = scatters || instance.medium.scatters();
         if (shades && world_.lights.hasSun())

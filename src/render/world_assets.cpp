@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
+#include <limits>
 
 #include "cloud/bricks.h"
 #include "cloud/level_of_detail.h"
 #include "frame/view_params.h"
+#include "light/photon/map_limits.h"
 #include "view/camera.h"
 
 namespace lumulus {
@@ -74,20 +76,43 @@ struct Group {
     const vdb::Volume* volume;
     glm::dmat3 shape;
     int level;
+    double pixels;  ///< of its largest instance, along the longest side
     std::vector<std::size_t> instances;
 };
 
-/// The level of detail of an instance in the picture of a camera.
-int levelFor(const cloud::Instance& instance, const glm::ivec3& size, const Camera& camera) {
+/// Pixels that a voxel of an instance takes at its nearest point to the camera; infinite within it.
+double voxelPixels(const cloud::Instance& instance, const glm::ivec3& size, const Camera& camera) {
     const glm::dvec3 middle = instance.toWorld(0.5 * glm::dvec3(size));
     const double radius = 0.5 * glm::length(instance.voxelToMetres * glm::dvec3(size));
     const glm::dvec3 away = middle - camera.position;
     const double distance = glm::length(away);
-    if (distance <= 1.5 * radius) return 0;
+    if (distance <= 1.5 * radius) return std::numeric_limits<double>::infinity();
     // pixels of a perspective grow with the depth, the smallest on the axis
     const double pixel = frame::pixelLength(camera, camera.position + (distance - radius) * camera.axes[2]);
     const bool behind = camera.projection == scene::Projection::perspective && glm::dot(away, camera.axes[2]) < -radius;
-    return cloud::levelOfDetail(glm::compMax(size), edgeOf(instance.voxelToMetres) / pixel / (behind ? unseen : 1.0));
+    return edgeOf(instance.voxelToMetres) / pixel / (behind ? unseen : 1.0);
+}
+
+/// Collectors that each instance of a group may have: by its size in the picture, and all together as many as the
+/// photon map has room for. A single cloud has what the scene asks for.
+std::vector<int> shareOutCollectors(const std::vector<Group>& groups, std::uint64_t room, int most) {
+    std::vector<int> shares;
+    double wanted = 0.0;
+    for (const Group& group : groups) {
+        shares.push_back(std::isfinite(group.pixels) ? std::min(most, cloud::collectorsFor(group.pixels)) : most);
+        wanted += static_cast<double>(group.instances.size()) * shares.back();
+    }
+    constexpr int fewest = 30;
+    const double factor = std::min(1.0, static_cast<double>(room) / std::max(wanted, 1.0));
+    for (int& share : shares) share = std::clamp(static_cast<int>(factor * share), std::min(fewest, most), most);
+    return shares;
+}
+
+/// Collectors that the scene's photon map has room for.
+std::uint64_t roomForCollectors(const gpu::Context& context, const scene::PhotonMap& map, const WorldOptions& options) {
+    const photon::MapSize size{0, map.bands, map.generations, options.keepRing, options.progressive, 0};
+    return photon::mostCollectors(size, static_cast<std::uint64_t>(std::ldexp(map.memoryBudget, 20)),
+                                  context.limits().maxStorageBufferRange);
 }
 
 double reducedExtinction(const phase::ScatteringMedium& medium, int bands) {
@@ -130,16 +155,25 @@ void prepareAssets(gpu::Context& context, const scene::Scene& scene, const std::
         instance.medium = media.make(scene.clouds[i], static_cast<double>(volume.maximum));
         if (!(instance.medium.extinction > 0.0)) continue;
         const glm::dmat3 shape = shapeOf(instance.voxelToMetres);
-        const int level = levels ? levelFor(instance, volume.size, camera) : 0;
+        const double pixels =
+            levels ? voxelPixels(instance, volume.size, camera) : std::numeric_limits<double>::infinity();
+        const int longest = glm::compMax(volume.size);
+        const int level = levels && std::isfinite(pixels) ? cloud::levelOfDetail(longest, pixels) : 0;
         const auto same = std::ranges::find_if(groups, [&](const Group& group) {
             return group.volume == &volume && group.level == level && areAlike(group.shape, shape);
         });
         if (same == groups.end())
-            groups.push_back({&volume, shape, level, {i}});
+            groups.push_back({&volume, shape, level, longest * pixels, {i}});
         else
             same->instances.push_back(i);
+        if (same != groups.end()) same->pixels = std::max(same->pixels, longest * pixels);
     }
-    for (const Group& group : groups) {
+    const int most = scene.preparation.maxLeaves;
+    const std::vector<int> shares =
+        placed.size() > 1 ? shareOutCollectors(groups, roomForCollectors(context, scene.photonMap, options), most)
+                          : std::vector<int>(groups.size(), most);
+    for (std::size_t number = 0; number < groups.size(); ++number) {
+        const Group& group = groups[number];
         options.report("preparing the cloud", 0, 1);
         const std::size_t first = group.instances.front();
         const vdb::Volume coarse = group.level > 0 ? cloud::coarsened(*group.volume, group.level) : vdb::Volume{};
@@ -151,11 +185,8 @@ void prepareAssets(gpu::Context& context, const scene::Scene& scene, const std::
         wanted.preparation = scene.preparation;
         wanted.majorant = scene.photonMap.majorant;
         wanted.keepBlocks = placed.size() > 1;
-        if (group.level > 0) {
-            const int most = cloud::collectorsFor(glm::compMax(coarse.size));
-            wanted.preparation.maxLeaves = std::min(wanted.preparation.maxLeaves, most);
-            wanted.preparation.samples = std::min(wanted.preparation.samples, 16 * most);
-        }
+        wanted.preparation.maxLeaves = shares[number];
+        if (placed.size() > 1) wanted.preparation.samples = std::min(wanted.preparation.samples, 16 * shares[number]);
         // Leaves are split until they are optically thin. An asset knows its own size, so that what counts for an
         // instance is its extinction times how much larger it is.
         for (const std::size_t i : group.instances) {
@@ -174,7 +205,7 @@ void prepareAssets(gpu::Context& context, const scene::Scene& scene, const std::
                  : cloud::prepare(context, field, wanted)));
         const cloud::Asset* const asset = world.assets.back().get();
         for (const std::size_t i : group.instances) world.instances[i].asset = asset;
-        if (asset->tree.limited && group.level == 0)
+        if (asset->tree.limited && shares[number] == most)
             report.warnings.push_back("samples of the gradient asked for more than " +
                                       std::to_string(scene.preparation.maxLeaves) +
                                       " collectors: light is smeared in those that stay too large; raise "

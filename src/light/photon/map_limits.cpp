@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -28,6 +29,13 @@ std::uint64_t generationBytes(const MapSize& size) {
 
 std::uint64_t mapBytes(const MapSize& size) {
     return parts(size) * generationBytes(size);
+}
+
+std::uint64_t mostCollectors(const MapSize& size, std::uint64_t budget, std::uint64_t largestBuffer) {
+    MapSize one = size;
+    one.collectors = 1;
+    one.estimates = 0;
+    return std::min(budget / parts(size), largestBuffer) / (2 * generationBytes(one));
 }
 
 void requireMapFits(const MapSize& size, std::uint64_t budget, std::uint64_t largestBuffer) {

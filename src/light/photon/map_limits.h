@@ -21,6 +21,9 @@ std::uint64_t generationBytes(const MapSize& size);
 /// it is kept.
 std::uint64_t mapBytes(const MapSize& size);
 
+/// Collectors that take half of the memory that a map of this kind may have: the other half is for its estimates.
+std::uint64_t mostCollectors(const MapSize& size, std::uint64_t budget, std::uint64_t largestBuffer);
+
 /// Errors: InputError where the map needs more than `budget` bytes, or one generation more than the device's largest
 /// buffer, with both numbers.
 void requireMapFits(const MapSize& size, std::uint64_t budget, std::uint64_t largestBuffer);
