@@ -162,11 +162,12 @@ void prepareAssets(gpu::Context& context, const scene::Scene& scene, const std::
         const auto same = std::ranges::find_if(groups, [&](const Group& group) {
             return group.volume == &volume && group.level == level && areAlike(group.shape, shape);
         });
-        if (same == groups.end())
+        if (same == groups.end()) {
             groups.push_back({&volume, shape, level, longest * pixels, {i}});
-        else
+        } else {
             same->instances.push_back(i);
-        if (same != groups.end()) same->pixels = std::max(same->pixels, longest * pixels);
+            same->pixels = std::max(same->pixels, longest * pixels);
+        }
     }
     const int most = scene.preparation.maxLeaves;
     const std::vector<int> shares =
