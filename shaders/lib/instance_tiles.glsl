@@ -8,7 +8,7 @@
 layout(binding = 10, scalar) readonly buffer TileOffsets { uint tileOffsets[]; };
 layout(binding = 11, r32ui) readonly uniform uimageBuffer tileLists;
 // As texels: their loads are by vectors on lavapipe, those from buffers by lanes.
-layout(binding = 13, rgba32f) readonly uniform imageBuffer instancePlaces;
+layout(binding = 14, rgba32f) readonly uniform imageBuffer instancePlaces;
 
 /// Entries of the lists from `first` to `last`.
 struct InstanceRange {
