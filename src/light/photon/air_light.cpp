@@ -130,6 +130,7 @@ void addSky(AirLight& light, const sky::Atmosphere& atmosphere, const sky::SkyMa
 AirLight makeAirLight(const sky::Atmosphere& atmosphere, const sky::SkyMaps* maps, const scene::Sun& sun,
                       const Box& box) {
     AirLight light;
+    light.sunAbove = sun.irradiance;
     const glm::dvec3 up = atmosphere.upAt(box.origin + box.edges * (0.5 * box.size));
     light.origin = box.origin;
     addSun(light, atmosphere, sun, box, acrossOf(sun.directionTo, up), up);

@@ -19,6 +19,7 @@ struct AirLight {
     double skyPeakDensity = 0.0;         ///< largest weight for each m² that a photon stands for
     double meanArea = 0.0;               ///< that the box shows, on average over directions [m²]
     glm::dvec3 origin{0.0};              ///< of the voxels that `place` is of [m]
+    glm::dvec3 sunAbove{0.0};            ///< irradiance of the sun above the air: no light in the cloud has more
     glm::dmat3 skyAxes{1.0};             ///< from the map to the world
 };
 
