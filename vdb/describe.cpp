@@ -94,6 +94,15 @@ std::optional<OpticalThickness> thicknessOf(const openvdb::GridBase::Ptr& grid, 
     }
 }
 
+/// Bricks with active voxels, and those of the box around them.
+std::pair<std::uint64_t, double> bricksOf(const openvdb::TreeBase& tree, const GridInfo& info) {
+    constexpr std::uint64_t voxels = 512;
+    const std::uint64_t inTiles = (tree.activeVoxelCount() - tree.activeLeafVoxelCount()) / voxels;
+    const glm::dvec3 low(info.activeMinimum >> 3), high(info.activeMaximum >> 3);
+    const glm::dvec3 extent = high - low + 1.0;
+    return {tree.leafCount() + inTiles, extent.x * extent.y * extent.z};
+}
+
 GridInfo describeGrid(const openvdb::GridBase& grid) {
     GridInfo info;
     info.name = grid.getName();
@@ -112,6 +121,7 @@ GridInfo describeGrid(const openvdb::GridBase& grid) {
     if (info.affine) info.place = placeOf(grid, info);
     if (grid.isType<openvdb::FloatGrid>()) info.values = measureValues<openvdb::FloatGrid>(grid);
     if (grid.isType<openvdb::DoubleGrid>()) info.values = measureValues<openvdb::DoubleGrid>(grid);
+    if (info.values) info.bricks = bricksOf(grid.constBaseTree(), info);
     return info;
 }
 

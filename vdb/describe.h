@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "vdb/optical_thickness.h"
@@ -45,6 +46,9 @@ struct GridInfo {
     /// At extinction 1/m where the value is 1, as a rendered cloud has it within the default memory budget. Absent
     /// where `load` refuses the grid or finds nothing in it.
     std::optional<OpticalThickness> thickness;
+    /// Bricks of 8³ voxels in leaves and active tiles, and those of the whole box; absent where the grid holds no
+    /// scalars or none is active.
+    std::optional<std::pair<std::uint64_t, double>> bricks;
     bool taken = false;  ///< whether a scene that names no grid shows this one
 };
 

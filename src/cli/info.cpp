@@ -87,6 +87,7 @@ Json gridJson(const vdb::GridInfo& grid) {
                            {"background", grid.values->background},
                            {"not_finite", grid.values->notFinite}};
     }
+    if (grid.bricks) entry["bricks"] = {{"with_density", grid.bricks->first}, {"of_the_box", grid.bricks->second}};
     if (grid.thickness) {
         entry["optical_thickness"] = {{"extinction", 1.0},
                                       {"largest", vectorJson(grid.thickness->largest)},
@@ -136,6 +137,14 @@ std::string gridText(const vdb::GridInfo& grid) {
                             grid.values->maximum, grid.values->mean, grid.values->background);
         if (grid.values->notFinite > 0)
             text += fmt::format("            and {} that are infinite or not a number\n", grid.values->notFinite);
+    }
+    if (grid.bricks) {
+        constexpr double slotMiB = 729.0 / 1048576.0, denseMiB = 1024.0 / 1048576.0;
+        const auto filled = static_cast<double>(grid.bricks->first);
+        text += fmt::format(
+            "  bricks    {} of {:.0f} of 8^3 voxels: about {:.4g} MiB sparse at 1 byte a voxel, {:.4g} MiB dense at "
+            "2\n",
+            grid.bricks->first, grid.bricks->second, slotMiB * filled, denseMiB * grid.bricks->second);
     }
     if (grid.thickness)
         text += fmt::format(

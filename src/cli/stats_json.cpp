@@ -11,6 +11,24 @@ namespace lumulus::cli {
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+Json bricksJson(const BrickSummary& bricks) {
+    return {{"leaves", bricks.leaves},
+            {"dense", bricks.dense},
+            {"constant", bricks.constant},
+            {"empty", bricks.empty},
+            {"slots_by_level", bricks.levels},
+            {"bytes",
+             {{"texel", bricks.bytesOfTexel},
+              {"pool", bricks.poolBytes},
+              {"index", bricks.indexBytes},
+              {"collector_index", bricks.collectorIndexBytes},
+              {"majorants", bricks.majorantBytes}}}};
+}
+
+}  // namespace
+
 std::string statisticsJson(const Statistics& s, const std::optional<ProgressiveStatistics>& progressive,
                            double writeSeconds, double totalSeconds) {
     Json passes = Json::array();
@@ -21,6 +39,7 @@ std::string statisticsJson(const Statistics& s, const std::optional<ProgressiveS
                           {"file", cloud.file.empty() ? Json() : Json(cloud.file)},
                           {"grid", cloud.grid},
                           {"optical_thickness", {{"largest", cloud.largestThickness}, {"mean", cloud.meanThickness}}}});
+        if (cloud.bricks) clouds.back()["bricks"] = bricksJson(*cloud.bricks);
     }
     Json json{
         {"device", s.device},

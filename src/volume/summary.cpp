@@ -18,14 +18,33 @@ std::string shown(const std::string& name) {
     return shortened(oneLine(name), longest);
 }
 
+BrickSummary summaryOf(const vdb::SparseVolume& volume) {
+    BrickSummary summary;
+    summary.leaves = volume.leaves.leaves.size();
+    summary.dense = volume.counts.dense;
+    summary.constant = volume.counts.constant;
+    summary.empty = volume.counts.empty;
+    std::ranges::copy(volume.counts.slots, summary.levels.begin());
+    summary.bytesOfTexel = static_cast<int>(vdb::texelBytes(volume.format));
+    summary.poolBytes = volume.poolBytes();
+    summary.indexBytes = summary.collectorIndexBytes = volume.indexBytes();
+    summary.majorantBytes = volume.gpuBytes() - summary.poolBytes - 2 * summary.indexBytes;
+    return summary;
+}
+
 }  // namespace
 
 std::vector<CloudSummary> summarise(const scene::Scene& scene, const CloudVolumes& volumes) {
     std::vector<CloudSummary> clouds;
     for (std::size_t i = 0; i < volumes.clouds.size(); ++i) {
         const CloudVolumes::Cloud& cloud = volumes.clouds[i];
-        clouds.push_back({scene::nameOf(scene, i), scene.clouds[i].vdb.string(), volumes.volumes[cloud.volume].name,
-                          cloud.thickness.largestOfAll(), cloud.thickness.meanOfAll()});
+        clouds.push_back({scene::nameOf(scene, i),
+                          scene.clouds[i].vdb.string(),
+                          volumes.volumes[cloud.volume].name,
+                          cloud.thickness.largestOfAll(),
+                          cloud.thickness.meanOfAll(),
+                          {}});
+        if (volumes.isSparse()) clouds.back().bricks = summaryOf(volumes.bricks[cloud.volume]);
     }
     return clouds;
 }

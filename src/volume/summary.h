@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,13 +16,23 @@ namespace lumulus {
 
 struct CloudVolumes;
 
+/// How a field in bricks is stored.
+struct BrickSummary {
+    std::uint64_t leaves = 0;                          ///< of 8³ voxels with density
+    std::uint64_t dense = 0, constant = 0, empty = 0;  ///< bricks of the box: with texels, of one value, of 0
+    std::array<std::uint64_t, 4> levels{};             ///< slots of the pool, by level
+    int bytesOfTexel = 0;
+    std::uint64_t poolBytes = 0, indexBytes = 0, collectorIndexBytes = 0, majorantBytes = 0;
+};
+
 /// What a picture shows of one cloud of the scene.
 struct CloudSummary {
-    std::string name;               ///< as nameOf() gives it
-    std::string file;               ///< empty for a procedural cloud
-    std::string grid;               ///< name of the grid that was taken, or the kind of a procedural cloud
-    double largestThickness = 0.0;  ///< optical thickness, the largest along the axes of the grid …
-    double meanThickness = 0.0;     ///< … and its mean over the columns of voxels that meet the cloud
+    std::string name;                         ///< as nameOf() gives it
+    std::string file;                         ///< empty for a procedural cloud
+    std::string grid;                         ///< name of the grid that was taken, or the kind of a procedural cloud
+    double largestThickness = 0.0;            ///< optical thickness, the largest along the axes of the grid …
+    double meanThickness = 0.0;               ///< … and its mean over the columns of voxels that meet the cloud
+    std::optional<BrickSummary> bricks = {};  ///< absent where the field is dense
 };
 
 /// A function that is told of a scene's clouds as soon as they are loaded, with what is warned of by then.

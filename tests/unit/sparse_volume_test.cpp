@@ -52,7 +52,8 @@ TEST(SparseVolume, HasTheDenseValuesAtRandomPlaces) {
             SparseVolume sparse = sparseOf(dense, format);
             const std::vector<std::byte> texels = allTexels(sparse);
             ASSERT_EQ(texels.size(), sparse.slots.size() * SparseVolume::slotTexels * texelBytes(format));
-            // half a step of eight bits, or 11 binary digits; the greatest value of a brick is stored up to 1/1024 above
+            // half a step of eight bits, or 11 binary digits; the greatest value of a brick is stored up to 1/1024
+            // above
             const double tolerance = format == DensityFormat::r8 ? 0.5 / 255.0 + 1e-5 : 0x1p-11;
             for (const glm::vec3& place : randomPlaces(size, 20000))
                 ASSERT_NEAR(static_cast<double>(densityAt(sparse, texels, place)), denseAt(dense, place), tolerance)
@@ -65,7 +66,7 @@ TEST(SparseVolume, ConstantAndEmptyBricksTakeNoTexels) {
     Volume dense = test::emptyVolume(glm::ivec3(96));
     test::fillVolume(dense, [](const glm::ivec3& at) {
         return glm::all(glm::greaterThanEqual(at, glm::ivec3(16))) && glm::all(glm::lessThan(at, glm::ivec3(64))) ? 0.5
-                                                                                                                : 0.0;
+                                                                                                                  : 0.0;
     });
     SparseVolume sparse = sparseOf(dense, DensityFormat::r8);
     // 6³ bricks of one value, of which those that have others above them on all axes, 5³, see nothing but it; the
@@ -83,8 +84,8 @@ TEST(SparseVolume, ConstantAndEmptyBricksTakeNoTexels) {
 TEST(SparseVolume, MajorantsBoundTheInterpolationAndTouchIt) {
     const Volume dense = test::lumpyVolume({50, 70, 45}, glm::dmat3(1.0), 9);
     for (const int level : {0, 1, 3}) {
-        SparseVolume sparse =
-            sparseOf(dense, DensityFormat::r8, level == 0 ? LevelRule{} : [&](const glm::ivec3&, int) { return level; });
+        SparseVolume sparse = sparseOf(
+            dense, DensityFormat::r8, level == 0 ? LevelRule{} : [&](const glm::ivec3&, int) { return level; });
         const std::vector<std::byte> texels = allTexels(sparse);
         const glm::ivec3 cells = sparse.cells();
         double slack = 0.0, sum = 0.0;

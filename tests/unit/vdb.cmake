@@ -19,3 +19,4 @@ lumulus_test(vdb_procedural_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_procedura
 lumulus_test(vdb_chunks_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_chunks_test.cpp LINK lumulus_vdb OpenVDB::openvdb)
 lumulus_test(vdb_sparse_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/sparse_volume_test.cpp LINK lumulus_vdb)
 lumulus_test(vdb_rim_spectrum_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_rim_spectrum_test.cpp LINK lumulus_test_rico)
+lumulus_test(vdb_sparse_load_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/sparse_load_test.cpp LINK lumulus_vdb OpenVDB::openvdb)
