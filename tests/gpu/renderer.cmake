@@ -8,3 +8,6 @@ lumulus_test(renderer_test SANITIZED
           ${CMAKE_CURRENT_LIST_DIR}/renderer_views_test.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/support/vulkan_main.cpp
   LINK lumulus_render lumulus_base lumulus_vdb ${CMAKE_DL_LIBS})
+lumulus_test(renderer_atmosphere_test
+  SOURCES ${CMAKE_CURRENT_LIST_DIR}/renderer_atmosphere_test.cpp ${CMAKE_CURRENT_SOURCE_DIR}/support/vulkan_main.cpp
+  LINK lumulus_render lumulus_base lumulus_vdb ${CMAKE_DL_LIBS})

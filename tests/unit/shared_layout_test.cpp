@@ -13,6 +13,7 @@
 #include "shared/fog_layers.h"
 #include "shared/frame.h"
 #include "shared/photon.h"
+#include "shared/sky_view.h"
 #include "support/struct_layout.h"
 
 namespace lumulus::test {
@@ -107,7 +108,9 @@ TEST(SharedLayout, Photon) {
     EXPECT_LAYOUT(trace_comp, TraceParams, worldToCells, size, cells, cellSize, extinction, scatterShare, albedo,
                   straightWeight, scatterFraction, asymmetry, sunDirection, sunCone, faceArea, faceSize, sunThrough,
                   sunPower, skyPower, sunPhotons, photons, generation, stream, collectors, invocations, recordCapacity,
-                  stepLimit, collisionLimit, estimatorBase, estimatorEdge, estimatorCells, axisBase);
+                  stepLimit, collisionLimit, estimatorBase, estimatorEdge, estimatorCells, axisBase, air, skyAxes);
+    EXPECT_LAYOUT(trace_comp, AirPlace, across, up, origin);
+    EXPECT_LAYOUT(trace_comp, SkyCell, keep, other, low, high);
     EXPECT_LAYOUT(trace_comp, TraceState, cell, offset, direction, weight, depth, photon, draws, collisions,
                   scatterings, alive);
     EXPECT_LAYOUT(trace_comp, PhotonRecord, collector, direction, power);
@@ -127,7 +130,7 @@ TEST(SharedLayout, Draw) {
     EXPECT_LAYOUT(billboards_comp, InstanceParams, worldToVoxel, eyeVoxel, size, cells, cellSize, extinction,
                   voxelLength, radianceScale, voxelToShadow, shadowOffset, sunIrradiance, albedo, extinctionScale,
                   scatterShare, angleScale, tauMaximum, phaseTable, densityOrigin, lightOrigin, shadowOrigin,
-                  cellOrigin, lightSize, shadowSize);
+                  cellOrigin, lightSize, shadowSize, air, airTexel);
     EXPECT_LAYOUT(billboards_comp, SamplingGrid, first, size, spacing, tolerance, depthTolerance);
     EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, environment, atlas, sampling, instances, tilesAcross,
                   samples);
@@ -159,6 +162,9 @@ TEST(SharedLayout, Frame) {
     EXPECT_LAYOUT(sun_pixels_comp, SunPixel, pixel, radiance);
     EXPECT_PUSH(sun_pixels_comp, SunPixelsPush, count);
     EXPECT_PUSH(background_comp, BackgroundPush, size, withoutFirst, withoutSize, radiance);
+    EXPECT_LAYOUT(sky_comp, SkyViewParams, up, sunAcross, toSun, height, planetHeight, horizon, highest,
+                  horizonDistance, asymmetry);
+    EXPECT_LAYOUT(sky_comp, SkyPassParams, view, sky, first, pixelAngle, nearest, farthest);
     EXPECT_PUSH(read_band_comp, BandPush, first, size);
 }
 
