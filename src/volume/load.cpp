@@ -119,9 +119,9 @@ std::vector<vdb::PlacedVolume> CloudVolumes::placed() const {
 }
 
 CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const Check& check) {
-    constexpr double treesPerBudget = 2.0, treesAlways = 4096.0;
+    constexpr double treesPerBudget = 8.0;
     const double budget = scene.preparation.memoryBudget;
-    const vdb::ReadLimits limits{check, std::max(treesAlways, treesPerBudget * budget)};
+    const vdb::ReadLimits limits{check, treesPerBudget * budget};
     std::vector<std::size_t> volumeOf;
     std::vector<Source> sources = differentSources(scene.clouds, volumeOf);
     loadAll(sources, budget, report, limits);
