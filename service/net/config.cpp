@@ -108,6 +108,7 @@ void readLimits(ConfigReader& reader, Config& config) {
     reader.number("limits.scene_megabytes", render.sceneMemory, 1.0, 1e6);
     reader.number("limits.generation_seconds", render.generationSeconds, 0.1, 1e5);
     reader.number("limits.load_seconds", render.loadSeconds, 0.1, 1e5);
+    reader.number("limits.reload_seconds", render.reloadSeconds, 0.0, 1e6);
     reader.number("limits.hello_seconds", limits.helloSeconds, 0.1, 1e5);
     reader.number("limits.message_seconds", limits.messageSeconds, 0.1, 1e5);
     reader.number("limits.write_seconds", limits.writeSeconds, 0.1, 1e5);

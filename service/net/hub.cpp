@@ -64,6 +64,7 @@ std::shared_ptr<Peer> Hub::open(const std::string& from, std::function<void()> w
 void Hub::close(const std::shared_ptr<Peer>& peer, const std::string& why) {
     if (peers_.erase(peer->client()) == 0) return;
     peer->closeNow();
+    bridge_.dispose(std::make_shared<std::deque<Outgoing>>(peer->takeRest()));
     bridge_.service().removeClient(peer->client());
     uploads_.dropConnection(peer->client());
     metrics_.set(Metrics::connectionsOpen, static_cast<std::int64_t>(peers_.size()));
@@ -134,8 +135,8 @@ void Hub::answer(Peer& peer, Incoming incoming) {
         peer.enqueue(statisticsReply(id, metrics_.values(), service.sceneState(peer.client()), loading));
         peer.ended(id);
     } else if (std::holds_alternative<ListScenes>(request)) {
-        peer.enqueue(scenesReply(id, sceneNames(config_.render.scenes)));
-        peer.ended(id);
+        peer.storing();
+        uploads_.answer(peer.client(), [this, id] { return scenesReply(id, sceneNames(config_.render.scenes)); });
     } else if (auto wanted = renderRequest(std::move(request))) {
         if (const auto* stop = std::get_if<StopStream>(&*wanted)) peer.ended(stop->stream);
         bridge_.service().submit(peer.client(), id, std::move(*wanted), memoryFor(MemoryBudget::messages));
@@ -161,7 +162,7 @@ void Hub::sent(Peer& peer, std::size_t bytes, bool complete) {
     metrics_.add(Metrics::bytesSent, static_cast<std::int64_t>(bytes));
     auto out = peer.wrote(bytes, complete);
     if (out && out->frame) bridge_.service().frameSent(peer.client());
-    if (out && out->payload.size() > largeBytes) bridge_.dispose(std::move(out->payload), std::move(out->memory));
+    if (out && out->payload.size() > largeBytes) bridge_.dispose(std::make_shared<Outgoing>(std::move(*out)));
 }
 
 void Hub::watch(Clock::time_point now) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace lumulus::service {
 
@@ -79,6 +80,14 @@ std::optional<Outgoing> Peer::wrote(std::size_t bytes, bool complete) {
     outboxBytes_ -= out.head.size() + out.payload.size();
     if (outbox_.empty()) writing_.end();
     return out;
+}
+
+std::deque<Outgoing> Peer::takeRest() {
+    std::deque<Outgoing> rest = std::exchange(outbox_, {});
+    if (rest.empty()) return rest;
+    outbox_.push_back(std::move(rest.front()));  // its bytes may be on their way
+    rest.pop_front();
+    return rest;
 }
 
 bool Peer::overfull() const {

@@ -50,6 +50,9 @@ class Peer {
     /// Notes that bytes of next() have left. Where it is `complete`, it is removed and returned.
     std::optional<Outgoing> wrote(std::size_t bytes, bool complete);
 
+    /// What waits behind next() once the connection has ended: to be freed where that takes no time from others.
+    std::deque<Outgoing> takeRest();
+
     /// Whether so much waits to be written or stored that no more input may be taken.
     bool overfull() const;
     /// Note the begin and the end of storing a piece of an upload.

@@ -121,10 +121,8 @@ RenderService::Outlets RenderBridge::outlets(std::function<void(std::exception_p
     return outlets;
 }
 
-void RenderBridge::dispose(std::vector<std::byte> bytes, MemoryBudget::Share memory) {
+void RenderBridge::dispose(std::shared_ptr<void> gone) {
     constexpr ClientId nobody = 0;
-    auto gone =
-        std::make_shared<std::pair<std::vector<std::byte>, MemoryBudget::Share>>(std::move(bytes), std::move(memory));
     encoders_.submit(nobody, [gone = std::move(gone)]() mutable { gone.reset(); });
 }
 

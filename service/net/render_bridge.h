@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "base/display_transform.h"
@@ -34,8 +35,8 @@ class RenderBridge {
     ~RenderBridge();
 
     RenderService& service() { return service_; }
-    /// Frees bytes elsewhere than on the calling thread: that takes milliseconds of a large picture.
-    void dispose(std::vector<std::byte> bytes, MemoryBudget::Share memory);
+    /// Lets something end elsewhere than on the calling thread: that takes milliseconds of a large picture.
+    void dispose(std::shared_ptr<void> gone);
 
   private:
     RenderService::Outlets outlets(std::function<void(std::exception_ptr)> begun);

@@ -11,6 +11,7 @@
 #include "base/interrupt.h"
 #include "service/net/asio.h"
 #include "service/net/frame_server.h"
+#include "service/net/handler_times.h"
 #include "service/net/http_server.h"
 #include "service/net/hub.h"
 #include "service/net/supervisor.h"
@@ -95,6 +96,7 @@ class Server {
         signals_.async_wait([this](const error_code& error, int) {
             if (!error && !finishing_.joinable()) shutDown();
         });
+        const HandlerTimes times(instruments_.metrics);
         io_.run();
         instruments_.log.event("info", "stopped", nullptr);
         if (failure_) std::rethrow_exception(failure_);

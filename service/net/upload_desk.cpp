@@ -66,6 +66,10 @@ void UploadDesk::remove(ClientId connection, const std::string& owner, std::uint
     });
 }
 
+void UploadDesk::answer(ClientId connection, std::function<Message()> make) {
+    thread_.submit(lane, [this, connection, make = std::move(make)] { reply_(connection, make()); });
+}
+
 void UploadDesk::dropConnection(ClientId connection) {
     thread_.submit(lane, [this, connection] { store_.dropConnection(connection); });
 }

@@ -27,6 +27,8 @@ class UploadDesk {
     void list(ClientId connection, const std::string& owner, std::uint64_t id);
     void remove(ClientId connection, const std::string& owner, std::uint64_t id, const std::string& hash);
     /// Removes what a connection has not completed.
+    /// Answers with what `make` returns, which reads files too.
+    void answer(ClientId connection, std::function<Message()> make);
     void dropConnection(ClientId connection);
     void expire();
 

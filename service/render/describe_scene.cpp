@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/version.h"
+
 namespace lumulus::service {
 
 namespace {
@@ -19,6 +21,13 @@ std::vector<CloudDescription> cloudsOf(const scene::Scene& scene) {
 }
 
 }  // namespace
+
+void describePicture(LayeredImage& image, const scene::Scene& scene, const Renderer& renderer) {
+    image.attributes["scene"] = scene.source;
+    image.attributes["seed"] = std::to_string(scene.photonMap.seed);
+    image.attributes["software"] = std::string("lumulus ") + version;
+    image.attributes["samples"] = std::to_string(renderer.generations().photons());
+}
 
 SceneDescription describeScene(const scene::Scene& scene, const Renderer& renderer, const SceneLight& light) {
     SceneDescription result;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "service/render/durations.h"
 #include "service/values/request_error.h"
 
 namespace lumulus::service {
@@ -34,7 +35,7 @@ class FrameMaker::Busy {
 };
 
 double FrameMaker::workedSince(Clock::time_point begun, Clock::duration othersBefore) const {
-    return std::chrono::duration<double, std::milli>(Clock::now() - begun - (others_ - othersBefore)).count();
+    return milliseconds(Clock::now() - begun - (others_ - othersBefore));
 }
 
 FrameMaker::FrameMaker(Instruments& instruments, Host host)
@@ -160,7 +161,7 @@ void FrameMaker::makeFor(const Job& job, SlotPointer slot, bool closing) {
     } catch (const Cancelled&) {
         fail(job, {"cancelled", "cancelled on request", {}});
     } catch (const TooSlow& e) {
-        if (!bringBack(slot, "frame_cut_off", e)) dropSlot(slot, "frame_failed", e.what());
+        if (!bringBack(slot, "frame_cut_off", e) && !e.ofPicture()) dropSlot(slot, "frame_failed", e.what());
         fail(job, {"too_large", e.what(), {}});
     } catch (const std::exception& e) {
         fail(job, {"internal", e.what(), {}});

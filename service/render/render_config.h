@@ -18,6 +18,7 @@ struct RenderLimits {
     std::uint64_t photonsPerGeneration = 4'000'000;
     double generationSeconds = 30.0;  ///< for one generation or one picture; a scene that takes longer is dropped
     double loadSeconds = 120.0;       ///< for loading a scene
+    double reloadSeconds = 60.0;      ///< that the default scene must have lasted to be loaded again after it failed
     double shutdownSeconds = 5.0;     ///< for frames that wait when the service ends
     double heartbeatSeconds = 10.0;   ///< for a step of the render thread, before the service counts as stuck
     double uploadHours = 168.0;       ///< for which an upload is kept that nobody uses

@@ -35,9 +35,9 @@ void SceneDesk::stop() {
 }
 
 void SceneDesk::loadDefaultAgain() {
-    constexpr auto shortest = std::chrono::minutes(1);
-    if (defaultPending_ || !default_ || Clock::now() - defaultLoaded_ < shortest) return;
-    ended_.clear();  // these threads ended minutes ago
+    const std::chrono::duration<double> lasted = Clock::now() - defaultLoaded_;
+    if (defaultPending_ || !default_ || lasted.count() < config_.limits.reloadSeconds) return;
+    ended_.clear();  // these threads have ended
     ended_.push_back(std::move(default_));
     try {
         loadDefault();

@@ -7,10 +7,14 @@
 #include <utility>
 
 #include "base/error.h"
+<<<<<<< HEAD
 #include "base/version.h"
 #include "scene/tone.h"
+=======
+>>>>>>> service
 #include "service/render/client_picture.h"
 #include "service/render/describe_scene.h"
+#include "service/render/durations.h"
 #include "service/render/resample.h"
 #include "service/render/views.h"
 #include "service/values/request_error.h"
@@ -23,18 +27,6 @@ namespace {
 constexpr int probeWidth = 96;
 /// Part of a budget that a frame is planned to take: no frame costs quite what is foreseen.
 constexpr double aim = 0.9;
-
-double milliseconds(Clock::duration duration) {
-    return std::chrono::duration<double, std::milli>(duration).count();
-}
-
-double millisecondsSince(Clock::time_point start) {
-    return milliseconds(Clock::now() - start);
-}
-
-Clock::duration inSeconds(double seconds) {
-    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-}
 
 }  // namespace
 
@@ -99,13 +91,15 @@ void SceneSlot::guard() {
     if (step_) {
         const auto start = Clock::now();
         const auto pausedBefore = paused_;
+        const double time = time_;
         stepSeconds_ = step_();
+        renderer_->setTime(time_ = time);  // pictures within have their own
         const auto pause = Clock::now() - start;
         paused_ = pausedBefore + pause;  // whatever paused a picture of this scene within
         if (deadline_ != Clock::time_point::max()) deadline_ += pause;
     }
     if (cancelled_ != nullptr && cancelled_->load()) throw Cancelled{};
-    if (Clock::now() > deadline_) throw TooSlow("the scene takes longer than the limits of the service allow");
+    if (Clock::now() > deadline_) throw TooSlow(drawing_ > 0);
 }
 
 bool SceneSlot::holdMemory(MemoryBudget& budget) {
@@ -314,10 +308,7 @@ double SceneSlot::drawViews(Viewer& looking, const std::vector<View>& views, int
         result.drawMilliseconds += workedSince(start, pausedBefore);
         for (const PassTime& pass : renderer_->statistics().passes)
             if (pass.stage != Stage::photons) result.passes.push_back(pass);
-        drawn.image.attributes["scene"] = scene_.source;
-        drawn.image.attributes["seed"] = std::to_string(scene_.photonMap.seed);
-        drawn.image.attributes["software"] = std::string("lumulus ") + version;
-        drawn.image.attributes["samples"] = std::to_string(renderer_->generations().photons());
+        describePicture(drawn.image, scene_, *renderer_);
         result.views.push_back(std::move(drawn));
     }
     return enlarging;
@@ -370,22 +361,14 @@ FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {
     const double spent = millisecondsSince(job.arrived) + sun;
     if (limit) result.reduction = costs_.reductionFor(aim * *limit - spent, work, pixels, encoding);
 
-    const double timeAround = std::exchange(time_, frame.time);
-    renderer_->setTime(frame.time);
+    renderer_->setTime(time_ = frame.time);
     double enlarging = 0.0;
     Viewer& looking = viewer();
-    const auto goBack = [&] {
-        if (drawing_ > 0) renderer_->setTime(time_ = timeAround);
-    };
-    try {
+    {
         const Guarded guarded(*this, job.cancelled.get());
         const Counted drawing(drawing_);
         enlarging = drawViews(looking, views, result.reduction, result);
-    } catch (...) {
-        goBack();
-        throw;
     }
-    goBack();
     looking.viewed.drawn(views, renderer_->bounds(), frame.time);
     countMemory();
     noteDrawn(result, CostModel::reduced(work, result.reduction, pixels), enlarging);

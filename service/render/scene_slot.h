@@ -29,10 +29,18 @@ namespace lumulus::service {
 /// Thrown where nobody waits any more for the work at hand.
 struct Cancelled {};
 
-/// Thrown where a scene takes longer than the limits allow; its renderer is of no more use.
+/// Thrown where a generation of photons takes longer than the limits allow, so that the scene is of no use under this
+/// light, or a picture, which then asks for too much.
 class TooSlow : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
+    explicit TooSlow(bool ofPicture)
+        : std::runtime_error(ofPicture ? "the picture takes longer than the limits of the service allow"
+                                       : "the scene takes longer than the limits of the service allow"),
+          ofPicture_(ofPicture) {}
+    bool ofPicture() const { return ofPicture_; }
+
+  private:
+    bool ofPicture_;
 };
 
 /// A scene that is served: its renderer, and what its work costs. The renderer owns light, extinction and wind; the

@@ -132,7 +132,10 @@ std::optional<Job> Scheduler::takeWhere(Clock::time_point now, const Revision& r
         client.served = std::max(client.served, served_);
         order.push_back(it);
     }
-    std::ranges::stable_sort(order, {}, [this](const auto& it) { return clients_.at(*it).served; });
+    std::ranges::stable_sort(order, {}, [this](const auto& it) {
+        const Client& client = clients_.at(*it);
+        return std::pair(client.served, client.lastCost);
+    });
     for (const auto& it : order) {
         Client& client = clients_.at(*it);
         if (auto job = takeFrom(*it, client, now, revision)) {

@@ -37,9 +37,9 @@ std::shared_ptr<const std::variant<FrameRequest, Composite>> workOf(Work work) {
 }
 
 /// Decides which picture is drawn next. Clients share the time of the renderer: who has had the least of it comes
-/// first, and of equals who has waited longest (start-time fair queueing: Goyal, Vin and Cheng 1996). In a channel the
-/// newest request replaces the one before; a client that does not read gets nothing more. Holds a bounded number of
-/// requests. Not for several threads.
+/// first, of equals whose last picture took less, and then who has waited longest (start-time fair queueing: Goyal, Vin
+/// and Cheng 1996). In a channel the newest request replaces the one before; a client that does not read gets nothing
+/// more. Holds a bounded number of requests. Not for several threads.
 class Scheduler {
   public:
     struct Bounds {

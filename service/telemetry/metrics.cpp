@@ -36,6 +36,8 @@ constexpr std::array<Description, Metrics::names> descriptions{{
     {"timeouts_total", true, "Connections closed for being slow or silent"},
     {"encoder_waits_total", true, "Times that drawing waited for pictures to be encoded"},
     {"log_lines_lost_total", true, "Lines of the log that stderr did not take"},
+    {"io_longest_handler_microseconds", false, "Longest time that the thread of the sockets was at one thing"},
+    {"io_slow_handlers_total", true, "Times that it was at one thing for more than 10 ms"},
     {"memory_limit_bytes", false, "Memory that clients may make the service hold"},
     {"memory_bytes", false, "Memory that clients make the service hold"},
     {"memory_messages_bytes", false, "Of it, messages on their way in and replies on their way out"},

@@ -39,6 +39,8 @@ class Metrics {
         timeouts,
         encoderWaits,
         logLinesLost,
+        longestHandler,
+        slowHandlers,
         memoryLimit,
         memoryUsed,
         memoryMessages,

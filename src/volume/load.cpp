@@ -117,10 +117,15 @@ std::vector<vdb::PlacedVolume> CloudVolumes::placed() const {
     return result;
 }
 
+<<<<<<< HEAD
 CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const Check& check, FieldStorage storage) {
     constexpr double treesPerBudget = 2.0, treesAlways = 4096.0;
+=======
+CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const Check& check) {
+    constexpr double treesPerBudget = 8.0;
+>>>>>>> service
     const double budget = scene.preparation.memoryBudget;
-    const vdb::ReadLimits limits{check, std::max(treesAlways, treesPerBudget * budget)};
+    const vdb::ReadLimits limits{check, treesPerBudget * budget};
     std::vector<std::size_t> volumeOf;
     std::vector<Source> sources = differentSources(scene.clouds, volumeOf);
     const bool sparse = storage == FieldStorage::asWanted && wantsBricks(scene.preparation, sources, limits);

@@ -39,7 +39,7 @@ enum class FieldStorage { dense, asWanted };
 /// Loads or makes the clouds of a scene. All fields together keep to `preparation.memory_budget` as far as files go:
 /// procedural clouds have the resolution that the scene asks for. Where the rest of the budget is too small, files that
 /// need no more than an even share of it are loaded in full, and the others are averaged to an even share of what is
-/// left. Trees take twice the budget or 4 GiB at most while they are read. Errors: InputError for bad grids, a
+/// left. Trees take eight times the budget at most while they are read. Errors: InputError for bad grids, a
 /// transform that is singular or a budget below one voxel; Error where interrupted, or what `report` and `check` throw.
 /// `check` is asked on any thread, by several at once.
 ///

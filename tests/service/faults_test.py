@@ -10,6 +10,7 @@ import time
 import unittest
 
 from server import LUMULUS, SCENE, Server, ServiceTest
+from supervisor_test import get
 from lumulus_client import ServiceError
 
 
@@ -159,6 +160,64 @@ class Restart(unittest.TestCase):
         while not condition():
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.05)
+
+
+class DefaultScene(unittest.TestCase):
+    """A default scene whose photons take longer than the limits allow goes. It does so when the server stands still in the
+    middle of a generation, as on a machine that swaps; there is always one under way."""
+
+    SCENE = SCENE.replace("photons = 40000", "photons = 2000000000").replace("generations = 4", "generations = 4000").replace(
+        "bands = 3", "bands = 1")
+    SECONDS = 2.0  # for a generation
+
+    def served(self, reload_seconds):
+        server = Server(LUMULUS, scene=self.SCENE, limits=f"generation_seconds = {self.SECONDS}\nreload_seconds = {reload_seconds}")
+        self.addCleanup(server.stop)
+        return server
+
+    def stand_still(self, server):
+        server.process.send_signal(signal.SIGSTOP)
+        time.sleep(self.SECONDS + 0.5)
+        server.process.send_signal(signal.SIGCONT)
+        self.assertIn("longer than the limits", server.event("generation_failed")["message"])
+
+    def frame(self, server):
+        with server.client() as client:
+            return client.frame(width=16, height=16, budget={"photons": 0}).verify()
+
+    def refused(self, server, code):
+        with server.client() as client, self.assertRaises(ServiceError) as caught:
+            client.frame(width=16, height=16, budget={"photons": 0})
+        self.assertEqual(caught.exception.code, code)
+
+    def test_it_is_loaded_again(self):
+        server = self.served(0)
+        for _ in range(2):
+            self.assertTrue(self.frame(server))
+            self.stand_still(server)
+            server.event("scene_loaded", 60)
+        self.assertTrue(self.frame(server))
+        self.assertEqual(get(server, "/ready"), (200, "ready\n"))
+
+    def test_one_that_did_not_last_stays_gone(self):
+        """Loading it again would not end."""
+        server = self.served(600)
+        self.assertTrue(self.frame(server))
+        self.stand_still(server)
+        self.refused(server, "no_scene")
+        self.assertEqual(get(server, "/ready"), (503, "the default scene is gone\n"))
+        self.assertEqual(sum(event["event"] == "scene_loading" for event in server.log), 1)
+        with server.client() as client:
+            client.load_scene(toml='[[cloud]]\nprocedural = "sphere"\nresolution = 8\n[photon_map]\nphotons = 1000\n')
+            self.assertTrue(client.frame(width=16, height=16).verify())
+
+    def test_its_file_has_gone(self):
+        server = self.served(0)
+        os.remove(os.path.join(server.folder, "scenes", "small.toml"))
+        self.stand_still(server)
+        self.assertIn("small.toml", server.event("scene_refused")["message"])
+        self.refused(server, "no_scene")
+        self.assertEqual(get(server, "/ready"), (503, "the default scene is gone\n"))
 
 
 if __name__ == "__main__":

