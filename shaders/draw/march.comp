@@ -31,6 +31,7 @@ DrawParams params;
 #include "lib/drawn_pixel.glsl"
 #include "lib/pixel.glsl"
 #include "lib/ray_segment.glsl"
+#include "lib/instance_tiles.glsl"
 
 /// Optical thickness that a first step may have at most, by the cell's majorant.
 const float STEP_THICKNESS = 0.5;
@@ -100,25 +101,26 @@ void marchThrough(InstanceParams instance, vec3 direction, Line line, vec2 insid
     }
 }
 
-/// The light of one ray: through the one instance, or through all of them, segment by segment.
-RayLight march(vec3 origin, vec3 direction, float offset) {
+/// The light of one ray: through the one instance, or through those of a list, segment by segment.
+RayLight march(InstanceRange range, vec3 origin, vec3 direction, float offset) {
     RayLight ray = emptyRay();
     if (!MANY) {
         const Line line = lineIn(onlyInstance, origin, direction);
         marchThrough(onlyInstance, direction, line, clipToVolume(line, onlyInstance.size), offset, ray);
         return ray;
     }
-    float begin = 0.0, end = segmentEnd(origin, direction, begin);
+    float begin = 0.0, end = segmentEnd(range, origin, direction, begin);
     while (end > begin && !isOpaque(ray)) {
-        for (int i = 0; i < params.instances; ++i) {
-            const InstanceParams instance = instanceAt(i);
-            const Line line = lineIn(instance, origin, direction);
-            const vec2 inside = clipToVolume(line, instance.size);
-            if (inside.x < inside.y && inside.x <= begin && inside.y > begin)
-                marchThrough(instance, direction, line, vec2(begin, end), offset, ray);
+        for (int entry = range.first; entry < range.last; ++entry) {
+            const int number = listedInstance(entry);
+            float voxelLength;
+            const vec2 inside = insideOf(number, origin, direction, voxelLength);
+            if (inside.x >= inside.y || inside.x > begin || inside.y <= begin) continue;
+            const InstanceParams instance = instanceAt(number);
+            marchThrough(instance, direction, lineIn(instance, origin, direction), vec2(begin, end), offset, ray);
         }
         begin = end;
-        end = segmentEnd(origin, direction, begin);
+        end = segmentEnd(range, origin, direction, begin);
     }
     return ray;
 }
@@ -129,6 +131,8 @@ void main() {
     ivec2 pixel;
     int slot;
     if (!drawnPixel(pixel, slot)) return;
+    InstanceRange range = InstanceRange(0, 0);
+    if (MANY) range = instancesOf(pixel);
     PixelSum sum = emptyPixel();
     for (int i = 0; i < params.samples * params.samples; ++i) {
         const ivec2 fine = pixel * params.samples + ivec2(i % params.samples, i / params.samples);
@@ -136,7 +140,7 @@ void main() {
         viewRay(params.view, fine, params.samples, origin, direction);
         // interleaved gradient noise (Jimenez 2014): neighbours differ as much as they can
         const float offset = fract(52.9829189 * fract(dot(vec2(fine) + 0.5, vec2(0.06711056, 0.00583715))));
-        addRay(sum, march(origin, direction, offset), direction);
+        addRay(sum, march(range, origin, direction, offset), direction);
     }
     const Pixel finished = finishedPixel(sum, params.samples * params.samples);
     STORE_PIXEL(pixels, slot, finished);

@@ -33,28 +33,4 @@ float densityIn(InstanceParams instance, sampler3D density, vec3 voxel) {
     return densityAt(density, instance.densityOrigin + clamp(voxel, vec3(0.5), instance.size - 0.5), params.atlas.density);
 }
 
-/// Voxels of the shorter one that a ray goes through before it looks for what it meets in another instance that it is in too.
-const float SHARED_SEGMENT = 2.0;
-
-/// The end of the segment that begins at a distance: the next distance at which an instance is entered or left, or a little
-/// way where the line is in several. Negative: nothing is met from there on.
-float segmentEnd(vec3 origin, vec3 direction, float begin) {
-    float end = 3.4e38, shortest = 3.4e38;
-    int within = 0;
-    for (int i = 0; i < params.instances; ++i) {
-        const InstanceParams instance = instanceAt(i);
-        const vec2 inside = clipToVolume(lineIn(instance, origin, direction), instance.size);
-        if (inside.x >= inside.y || inside.y <= begin) continue;
-        if (inside.x > begin) {
-            end = min(end, inside.x);
-        } else {
-            ++within;
-            end = min(end, inside.y);
-            shortest = min(shortest, SHARED_SEGMENT * instance.voxelLength);
-        }
-    }
-    if (within > 1) end = min(end, max(begin + shortest, begin * (1.0 + 1.0e-6)));
-    return end < 3.0e38 ? end : -1.0;
-}
-
 #endif

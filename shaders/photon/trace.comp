@@ -25,17 +25,13 @@ layout(binding = 3, r32f) uniform readonly image3D majorants;  // normalised; ne
 layout(binding = 4, scalar) readonly buffer InverseCdf { float inverseCdf[]; };
 layout(binding = 5, scalar) buffer States { TraceState states[]; };
 layout(binding = 7, scalar) buffer RecordCounts { uint recordCounts[]; };  // of each invocation
-layout(binding = 9, scalar) buffer Counters { TraceCounters counters; };
 
 /// Cells that a photon may cross before the lanes that have met something go on.
 const int CROSSINGS = 16;
 
 // Held in registers: a load from a buffer costs a loop over the lanes on lavapipe, in every step.
 TraceParams params;
-
-vec4 draw(inout TraceState state) {
-    return rngUniform4(uvec4(state.photon, state.draws++, params.generation, params.stream));
-}
+#include "lib/photon.glsl"
 
 ScatterAngle samplePhase(float u) {
     if (ANALYTIC_PHASE) return sampleHg(params.asymmetry, u, params.scatterFraction);
@@ -48,16 +44,6 @@ float densityNear(vec3 voxel, vec2 u) {
     ivec3 near = voxelNear(voxel, u);
     if (PERIODIC) near = clamp(near, ivec3(0), ivec3(params.size) - 1);  // a layer is as dense at its faces
     return densityOf(density, near, ivec3(params.size));
-}
-
-/// Multiplies the weight; where that lowers its largest channel, Russian roulette keeps it up. False: absorbed.
-bool survives(inout TraceState state, vec3 factor, float u) {
-    const float before = max(state.weight.x, max(state.weight.y, state.weight.z));
-    state.weight *= factor;
-    const float after = max(state.weight.x, max(state.weight.y, state.weight.z));
-    if (!(u * before < after)) return false;
-    state.weight *= before / after;
-    return true;
 }
 
 /// A real collision. False: the photon has ended. `scatters`: whether it goes on in another direction.
@@ -73,19 +59,6 @@ bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint c
     }
     ++state.scatterings;
     return !ABSORBS || survives(state, params.albedo, u.y);
-}
-
-/// A photon that has not entered yet.
-void startPhoton(inout TraceState state) {
-    state.draws = 0u;
-    state.collisions = 0u;
-    state.scatterings = 0u;
-    state.alive = 1u;
-}
-
-void endPhoton(inout TraceState state) {
-    state.alive = 0u;
-    state.photon += params.invocations;
 }
 
 /// A new direction: at a scattering event, or of a photon that enters. One rotation for both: on a CPU all lanes pay for what one
@@ -105,20 +78,6 @@ void newDirection(inout TraceState state, inout Walk walk, bool enters, vec4 u, 
         walk.cell = clamp(ivec3(floor(point)), ivec3(0), params.cells - 1);
         walk.offset = clamp(point - vec3(walk.cell), 0.0, 1.0);
         state.weight = vec3(weight);
-    }
-}
-
-void addCounts(uint events, uint nulls, uint absorbed, uint escaped, uint lost, uint recorded, uvec3 sides) {
-    atomicAdd(counters.events, uint64_t(events));
-    atomicAdd(counters.nulls, uint64_t(nulls));
-    atomicAdd(counters.absorbed, uint64_t(absorbed));
-    atomicAdd(counters.escaped, uint64_t(escaped));
-    atomicAdd(counters.lost, uint64_t(lost));
-    atomicAdd(counters.records, uint64_t(recorded));
-    if (PERIODIC) {
-        atomicAdd(counters.reflected, uint64_t(sides.x));
-        atomicAdd(counters.transmittedDiffuse, uint64_t(sides.y));
-        atomicAdd(counters.transmittedDirect, uint64_t(sides.z));
     }
 }
 

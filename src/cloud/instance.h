@@ -15,7 +15,7 @@ namespace lumulus::cloud {
 struct Instance {
     std::string name;               ///< by which scenes and clients name it
     const Asset* asset = nullptr;   ///< null: nothing is there (no voxel, or an extinction of 0)
-    glm::dmat3 voxelToMetres{1.0};  ///< the asset's, also where there is none
+    glm::dmat3 voxelToMetres{1.0};  ///< edges of a voxel [m]: the asset's, rotated, mirrored or scaled
     glm::dvec3 origin{0.0};         ///< where the corner of voxel (0,0,0) lies [m], without the offset
     glm::dvec3 offset{0.0};         ///< by which it has moved since the scene was made [m]
     Bounds bounds;                  ///< of the density, without the offset
@@ -28,7 +28,9 @@ struct Instance {
     }
     glm::dvec3 middle() const { return toWorld(0.5 * glm::dvec3(asset->size)); }
     /// Edge of a cube of a voxel's volume [m].
-    double voxelEdge() const { return std::cbrt(asset->voxelVolume); }
+    double voxelEdge() const { return std::cbrt(std::abs(glm::determinant(voxelToMetres))); }
+    /// How much larger it is than its asset.
+    double scale() const { return voxelEdge() / std::cbrt(asset->voxelVolume); }
     /// Metres from corner to opposite corner of the volume.
     double diagonal() const { return glm::length(voxelToMetres * glm::dvec3(asset->size)); }
 };

@@ -51,7 +51,7 @@ std::vector<shared::Billboard> makeBillboards(std::span<const cloud::Instance* c
         for (std::size_t i = 0; i < asset.collectors.size(); ++i) {
             const cloud::Collector& collector = asset.collectors[i];
             const glm::dvec3 centre = instance.toWorld(glm::dvec3(collector.centre)) - camera.position;
-            const auto radius = static_cast<float>(billboardRadius(asset, collector));
+            const auto radius = static_cast<float>(instance.scale() * billboardRadius(asset, collector));
             const double order = parallel ? glm::dot(centre, camera.axes[2]) : glm::dot(centre, centre);
             placed.push_back(
                 {order, number, i, {glm::vec3(centre), radius, shares[number][i], static_cast<float>(number)}});
@@ -71,11 +71,19 @@ Billboards::Billboards(gpu::Context& context, std::span<const cloud::Instance* c
     : instances_(instances.begin(), instances.end()),
       program_(context, "billboards", spirv::billboards_comp, features.constants()) {
     for (const cloud::Instance* instance : instances_) {
-        shares_.push_back(billboardShares(context, *instance->asset));
+        if (const std::size_t same = firstWith(instance->asset); same < shares_.size())
+            shares_.push_back(shares_[same]);
+        else
+            shares_.push_back(billboardShares(context, *instance->asset));
         reach_.push_back(0.0);
         for (const cloud::Collector& collector : instance->asset->collectors)
-            reach_.back() = std::max(reach_.back(), billboardRadius(*instance->asset, collector));
+            reach_.back() = std::max(reach_.back(), instance->scale() * billboardRadius(*instance->asset, collector));
     }
+}
+
+std::size_t Billboards::firstWith(const cloud::Asset* asset) const {
+    return static_cast<std::size_t>(
+        std::ranges::find(instances_, asset, [](const cloud::Instance* i) { return i->asset; }) - instances_.begin());
 }
 
 Billboards::View::View(gpu::Context& context, const Billboards& billboards, const Camera& camera)

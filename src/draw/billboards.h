@@ -49,6 +49,8 @@ class Billboards {
     };
 
   private:
+    std::size_t firstWith(const cloud::Asset* asset) const;
+
     std::vector<const cloud::Instance*> instances_;
     DrawProgram program_;
     std::vector<std::vector<float>> shares_;  ///< of the collectors of each instance

@@ -40,7 +40,7 @@ gpu::Image tablePicture(gpu::Context& context, const char* name, std::span<const
 template <class Member>
 std::vector<const std::vector<float>*> each(std::span<const phase::ScatteringTables* const> media, Member member) {
     std::vector<const std::vector<float>*> tables;
-    for (const phase::ScatteringTables* medium : media) tables.push_back(&(medium->*member));
+    for (const phase::ScatteringTables* medium : media) tables.push_back(&(medium->*member).values());
     return tables;
 }
 

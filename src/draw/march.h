@@ -1,6 +1,7 @@
 #pragma once
 
 #include "draw/drawing.h"
+#include "draw/instance_tiles.h"
 
 namespace lumulus::draw {
 
@@ -9,7 +10,8 @@ class March {
   public:
     March(gpu::Context& context, const DrawFeatures& features);
     /// Records one pass over some pixels.
-    void record(gpu::Commands& commands, const DrawInputs& inputs, const shared::DrawPush& push) const;
+    void record(gpu::Commands& commands, const DrawInputs& inputs, const InstanceTiles& tiles,
+                const shared::DrawPush& push) const;
 
   private:
     DrawProgram program_;

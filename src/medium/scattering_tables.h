@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "medium/shared_table.h"
 #include "scene/scene.h"
 
 namespace lumulus::phase {
@@ -19,23 +20,23 @@ struct ScatteringTables {
 
     /// 1 − cos θ of p restricted to θ ≥ θc, inverseCdfCells + 1 entries, looked up with inverseCdfCell(u); empty for
     /// Henyey–Greenstein.
-    std::vector<float> inverseCdf;
+    SharedTable inverseCdf;
 
     float angleScale = 1.0F;  ///< for angleToAxis
     /// What rings about the sun's axis scatter beyond the bands (sun_axis.h); empty where the phase function has no
     /// backward peak.
-    std::vector<float> axisTable;
+    SharedTable axisTable;
     /// ln p [ln 1/sr], p averaged over the sun's disc, phaseTableSize entries, looked up with
     /// tableCell(angleToAxis(angle, angleScale), phaseTableSize).
-    std::vector<float> phaseTable;
+    SharedTable phaseTable;
 
     /// The smooth parts of the sun's light that scattered once (single_scattering.h), divided by
     /// exp(−extinctionScale·τ), RGB, singleScatterAngleCount × singleScatterTauCount; both empty (H = K = 0) where θc =
     /// 0.
-    std::vector<float> singleScatterH;  ///< of (τs, θ); the whole term carries e^−τv
-    std::vector<float> singleScatterK;  ///< of (τs + τv, θ)
-    float tauMaximum = 1.0F;            ///< for tauToAxis
-    glm::vec3 extinctionScale{1.0F};    ///< 1 − ω f per channel
+    SharedTable singleScatterH;       ///< of (τs, θ); the whole term carries e^−τv
+    SharedTable singleScatterK;       ///< of (τs + τv, θ)
+    float tauMaximum = 1.0F;          ///< for tauToAxis
+    glm::vec3 extinctionScale{1.0F};  ///< 1 − ω f per channel
 };
 
 /// Makes the tables. `cutRadians` θc in [0, π); `albedo` ω in [0,1]; `bands` ≥ 1; `sunAngularDiameterRadians` ≥ 0.

@@ -109,10 +109,8 @@ bool Renderer::traceGeneration(const CutOff& cutOff) {
 }
 
 std::uint64_t Renderer::shrinkGenerations(std::uint64_t divisor, std::uint64_t fewest) {
-    std::uint64_t photons = 0;
-    for (light::InstanceLight& light : state_->world->light)
-        if (light.photons) photons += light.photons->shrinkGenerations(divisor, fewest);
-    return photons;
+    std::optional<photon::PhotonMap>& photons = state_->world->photons;
+    return photons ? photons->shrinkGenerations(divisor, fewest) : 0;
 }
 
 View Renderer::sceneView() const {
@@ -162,10 +160,9 @@ LayeredImage Renderer::draw(const View& view, ViewState& viewState) {
     const Stopwatch watch;
     s.show(viewState.state(), view);
     s.work.times.clear();
-    for (light::InstanceLight& light : s.world->light) {
-        if (!light.photons) continue;
-        light.photons->settle();
-        frame::addTimes(s.work.times, light.photons->times());
+    if (s.world->photons) {
+        s.world->photons->settle();
+        frame::addTimes(s.work.times, s.world->photons->times());
     }
     PictureOrder order{s.work,
                        *s.world,
@@ -225,12 +222,11 @@ double Renderer::extinction(std::size_t cloud) const {
 
 Generations Renderer::generations() const {
     Generations result;
-    for (const light::InstanceLight& light : state_->world->light) {
-        if (!light.photons) continue;
-        result.first = light.photons->firstInRing();
-        result.count = light.photons->generationsInRing();
+    if (const auto& photons = state_->world->photons) {
+        result.first = photons->firstInRing();
+        result.count = photons->generationsInRing();
         result.current = std::min(result.count, state_->sinceChange);
-        result.photonsEach += light.photons->photonsInRing() / static_cast<std::uint64_t>(std::max(1, result.count));
+        result.photonsEach = photons->photonsInRing() / static_cast<std::uint64_t>(std::max(1, result.count));
     }
     return result;
 }
@@ -280,8 +276,7 @@ void Renderer::setTime(double seconds) {
 
 Statistics Renderer::statistics() const {
     Statistics result = state_->statistics;
-    for (const light::InstanceLight& light : state_->world->light)
-        if (light.photons) addCounters(result, *light.photons);
+    if (state_->world->photons) addCounters(result, *state_->world->photons);
     if (result.lost > 0)
         result.warnings.push_back(std::to_string(result.lost) + " of " + std::to_string(result.photons) +
                                   " photons scattered too often and were given up: their light is missing");

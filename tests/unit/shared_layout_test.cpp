@@ -13,6 +13,7 @@
 #include "shared/fog_layers.h"
 #include "shared/frame.h"
 #include "shared/photon.h"
+#include "shared/world.h"
 #include "support/struct_layout.h"
 
 namespace lumulus::test {
@@ -44,10 +45,12 @@ namespace spirv {
 #include "spirv/light/light_cells.comp.h"
 #include "spirv/light/light_counts.comp.h"
 #include "spirv/light/shadow_volume.comp.h"
+#include "spirv/light/shared_shadow.comp.h"
 #include "spirv/photon/accumulate.comp.h"
 #include "spirv/photon/gather.comp.h"
 #include "spirv/photon/reconstruct.comp.h"
 #include "spirv/photon/trace.comp.h"
+#include "spirv/photon/trace_world.comp.h"
 }  // namespace spirv
 
 using namespace shared;  // NOLINT: the structs under test
@@ -133,10 +136,13 @@ TEST(SharedLayout, Draw) {
     EXPECT_PUSH(billboards_comp, DrawPush, what, first, count);
     EXPECT_PUSH(interpolate_comp, InterpolatePush, first, count, firstBlock, blocks);
     EXPECT_LAYOUT(billboards_comp, Pixel, cloud, transmittance, alpha, depth, front, radiance, unused);
+    EXPECT_LAYOUT(trace_world_comp, MergedGridParams, bricks, instances, edge, largestWeight);
+    EXPECT_LAYOUT(shared_shadow_comp, Occluder, texelToTexel, offset, origin, size);
+    EXPECT_PUSH(shared_shadow_comp, SharedShadowPush, size, origin, first, occluders);
     EXPECT_PUSH(shadow_volume_comp, ShadowVolumePush, gridToVoxel, originVoxel, inverseSize, grid, step, firstRow);
-    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, eye, voxelToWorld, occupied, lit);
+    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, eye, voxelToWorld, occupied, lit, firstCollector);
     EXPECT_PUSH(light_counts_comp, LightCountsPush, size, grid, estimatorCells, estimatorAcross, estimatorBase,
-                estimatorScale, massScale, photon, moment, occupied);
+                estimatorScale, massScale, photon, moment, occupied, firstCollector);
     EXPECT_PUSH(billboard_mean_comp, BillboardMeanPush, worldToVoxel, inverseSize, spheres);
 }
 

@@ -1,0 +1,174 @@
+#include "render/world_assets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtx/component_wise.hpp>
+
+#include "cloud/level_of_detail.h"
+#include "frame/view_params.h"
+#include "view/camera.h"
+
+namespace lumulus {
+
+namespace {
+
+constexpr double degrees = 3.14159265358979323846 / 180.0;
+/// Metrics of voxels that differ by less have the same shape: rounding of rotations.
+constexpr double sameShape = 1e-6;
+/// Clouds out of the picture are as if they were so many times smaller.
+constexpr double unseen = 4.0;
+
+/// Lengths and angles of the edges of a voxel, whatever its size and however it is rotated or mirrored.
+glm::dmat3 shapeOf(const glm::dmat3& voxelToMetres) {
+    const glm::dmat3 metric = glm::transpose(voxelToMetres) * voxelToMetres;
+    return metric / std::pow(std::abs(glm::determinant(voxelToMetres)), 2.0 / 3.0);
+}
+
+bool areAlike(const glm::dmat3& a, const glm::dmat3& b) {
+    double largest = 0.0, apart = 0.0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            largest = std::max(largest, std::abs(a[i][j]));
+            apart = std::max(apart, std::abs(a[i][j] - b[i][j]));
+        }
+    return apart <= sameShape * largest;
+}
+
+double edgeOf(const glm::dmat3& voxelToMetres) {
+    return std::cbrt(std::abs(glm::determinant(voxelToMetres)));
+}
+
+/// Media of the same phase function and albedo share their tables.
+class MediumMaker {
+  public:
+    explicit MediumMaker(const scene::Scene& scene) : scene_(scene) {}
+
+    phase::ScatteringMedium make(const scene::Cloud& from, double maximum) {
+        auto known = std::ranges::find_if(
+            known_, [&](const Known& k) { return k.cloud->phase == from.phase && k.cloud->albedo == from.albedo; });
+        if (known == known_.end()) {
+            const scene::PhotonMap& map = scene_.photonMap;
+            known_.push_back({&from, phase::makeScatteringTables(from.phase, map.forwardCut * degrees, from.albedo,
+                                                                 map.bands, scene_.sun.angularDiameter * degrees)});
+            known = known_.end() - 1;
+        }
+        phase::ScatteringMedium medium;
+        medium.extinction = from.extinction * from.densityScale * maximum;
+        medium.albedo = from.albedo;
+        medium.tables = known->tables;
+        return medium;
+    }
+
+  private:
+    struct Known {
+        const scene::Cloud* cloud;
+        phase::ScatteringTables tables;
+    };
+    const scene::Scene& scene_;
+    std::vector<Known> known_;
+};
+
+/// Instances that share an asset.
+struct Group {
+    const vdb::Volume* volume;
+    glm::dmat3 shape;
+    int level;
+    std::vector<std::size_t> instances;
+};
+
+/// The level of detail of an instance in the picture of a camera.
+int levelFor(const cloud::Instance& instance, const glm::ivec3& size, const Camera& camera) {
+    const glm::dvec3 middle = instance.toWorld(0.5 * glm::dvec3(size));
+    const double radius = 0.5 * glm::length(instance.voxelToMetres * glm::dvec3(size));
+    const glm::dvec3 away = middle - camera.position;
+    const double distance = glm::length(away);
+    if (distance <= 1.5 * radius) return 0;
+    // pixels of a perspective grow with the depth, the smallest on the axis
+    const double pixel = frame::pixelLength(camera, camera.position + (distance - radius) * camera.axes[2]);
+    const bool behind = camera.projection == scene::Projection::perspective && glm::dot(away, camera.axes[2]) < -radius;
+    return cloud::levelOfDetail(glm::compMax(size), edgeOf(instance.voxelToMetres) / pixel / (behind ? unseen : 1.0));
+}
+
+double reducedExtinction(const phase::ScatteringMedium& medium, int bands) {
+    const double forward = bands > 1 ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
+    return medium.extinction * static_cast<double>(medium.tables.scatterFraction) * (1.0 - forward);
+}
+
+}  // namespace
+
+Bounds movedBounds(const Bounds& bounds, const vdb::Affine& from, const vdb::Affine& to) {
+    const glm::dmat3 turned = to.linear * glm::inverse(from.linear);
+    const auto moved = [&](const glm::dvec3& point) { return to.translation + turned * (point - from.translation); };
+    Bounds result;
+    result.centre = moved(bounds.centre);
+    result.halfAxes = turned * bounds.halfAxes;
+    for (const glm::dvec3& point : bounds.outline) result.outline.push_back(moved(point));
+    return result;
+}
+
+void prepareAssets(gpu::Context& context, const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& placed,
+                   const WorldOptions& options, World& world, WorldReport& report) {
+    std::vector<Group> groups;
+    MediumMaker media(scene);
+    const bool levels = scene.preparation.levelOfDetail && !options.keepRing && placed.size() > 1;
+    const Camera camera = makeCamera(scene.camera, scene.image, world.bounds);
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const vdb::Volume& volume = *placed[i].volume;
+        if (volume.empty()) continue;
+        cloud::Instance& instance = world.instances[i];
+        instance.medium = media.make(scene.clouds[i], static_cast<double>(volume.maximum));
+        if (!(instance.medium.extinction > 0.0)) continue;
+        const glm::dmat3 shape = shapeOf(instance.voxelToMetres);
+        const int level = levels ? levelFor(instance, volume.size, camera) : 0;
+        const auto same = std::ranges::find_if(groups, [&](const Group& group) {
+            return group.volume == &volume && group.level == level && areAlike(group.shape, shape);
+        });
+        if (same == groups.end())
+            groups.push_back({&volume, shape, level, {i}});
+        else
+            same->instances.push_back(i);
+    }
+    for (const Group& group : groups) {
+        options.report("preparing the cloud", 0, 1);
+        const std::size_t first = group.instances.front();
+        const vdb::Volume coarse = group.level > 0 ? cloud::coarsened(*group.volume, group.level) : vdb::Volume{};
+        const vdb::PlacedVolume field =
+            group.level > 0 ? vdb::PlacedVolume(coarse, cloud::coarsened(placed[first].toWorld, group.level))
+                            : placed[first];
+        const double thinner = static_cast<double>(field.volume->maximum) / static_cast<double>(group.volume->maximum);
+        cloud::PrepareOptions wanted;
+        wanted.preparation = scene.preparation;
+        wanted.majorant = scene.photonMap.majorant;
+        wanted.keepBlocks = placed.size() > 1;
+        if (group.level > 0) {
+            const int most = cloud::collectorsFor(glm::compMax(coarse.size));
+            wanted.preparation.maxLeaves = std::min(wanted.preparation.maxLeaves, most);
+            wanted.preparation.samples = std::min(wanted.preparation.samples, 16 * most);
+        }
+        // Leaves are split until they are optically thin. An asset knows its own size, so that what counts for an
+        // instance is its extinction times how much larger it is.
+        for (const std::size_t i : group.instances) {
+            cloud::Instance& instance = world.instances[i];
+            if (group.level > 0) {
+                instance.medium.extinction *= thinner;
+                instance.voxelToMetres =
+                    cloud::coarsened({instance.voxelToMetres, instance.origin}, group.level).linear;
+            }
+            const double larger = i == first ? 1.0 : edgeOf(instance.voxelToMetres) / edgeOf(field.toWorld.linear);
+            wanted.reducedExtinction =
+                std::max(wanted.reducedExtinction, larger * reducedExtinction(instance.medium, scene.photonMap.bands));
+        }
+        world.assets.push_back(std::make_shared<const cloud::Asset>(cloud::prepare(context, field, wanted)));
+        const cloud::Asset* const asset = world.assets.back().get();
+        for (const std::size_t i : group.instances) world.instances[i].asset = asset;
+        if (asset->tree.limited && group.level == 0)
+            report.warnings.push_back("samples of the gradient asked for more than " +
+                                      std::to_string(scene.preparation.maxLeaves) +
+                                      " collectors: light is smeared in those that stay too large; raise "
+                                      "preparation.max_leaves or lower preparation.samples");
+        stopIfInterrupted();
+        options.report("preparing the cloud", 1, 1);
+    }
+}
+
+}  // namespace lumulus
