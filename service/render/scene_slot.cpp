@@ -7,11 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-<<<<<<< HEAD
-#include "base/version.h"
 #include "scene/tone.h"
-=======
->>>>>>> service
 #include "service/render/client_picture.h"
 #include "service/render/describe_scene.h"
 #include "service/render/durations.h"

@@ -117,13 +117,8 @@ std::vector<vdb::PlacedVolume> CloudVolumes::placed() const {
     return result;
 }
 
-<<<<<<< HEAD
 CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const Check& check, FieldStorage storage) {
-    constexpr double treesPerBudget = 2.0, treesAlways = 4096.0;
-=======
-CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const Check& check) {
     constexpr double treesPerBudget = 8.0;
->>>>>>> service
     const double budget = scene.preparation.memoryBudget;
     const vdb::ReadLimits limits{check, treesPerBudget * budget};
     std::vector<std::size_t> volumeOf;
