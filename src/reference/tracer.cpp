@@ -116,6 +116,15 @@ double PathTracer::response(const Vertex& vertex, const glm::dvec3& toLight) con
     return phaseAt(vertex).evaluate(oneMinusCosBetween(vertex.arrived, toLight));
 }
 
+/// What the phase function of droplets makes of the colours of light from a direction. Later scattering events by the
+/// mean of the colours: many of them would multiply to weights without bounds, and their colours have blurred by then.
+glm::dvec3 PathTracer::hue(const Path& path, const glm::dvec3& toLight) const {
+    constexpr int most = 6;
+    const Vertex& vertex = path.vertex;
+    if (vertex.place != Place::cloud || path.collisions > most) return glm::dvec3(1.0);
+    return clouds_.phase(vertex.index).hue(oneMinusCosBetween(vertex.arrived, toLight));
+}
+
 /// Density of paths that leave the vertex in a direction, 1/sr: by chance, and as branches to the aureole.
 double PathTracer::density(const Vertex& vertex, const glm::dvec3& direction) const {
     return response(vertex, direction) + (aureole_ ? aureole_->density(direction) : 0.0);
@@ -126,6 +135,7 @@ double PathTracer::density(const Vertex& vertex, const glm::dvec3& direction) co
 /// thins them out to weights of one over the importance. Returns false if the path ends.
 bool PathTracer::head(Path& path, const glm::dvec3& direction, Random& random) const {
     Vertex& vertex = path.vertex;
+    path.throughput *= hue(path, direction);
     if (aureole_) {
         path.throughput *= response(vertex, direction) / density(vertex, direction);
         if (!survives(path.throughput, glm::compMax(path.throughput) * aureole_->importance(direction), random))
@@ -152,7 +162,8 @@ glm::dvec3 PathTracer::emissionAt(const Vertex& vertex, const Event& event) cons
 }
 
 /// Light of a chosen lamp that reaches the vertex and goes on along the path.
-glm::dvec3 PathTracer::lampLight(const Vertex& vertex, Random& random) const {
+glm::dvec3 PathTracer::lampLight(const Path& path, Random& random) const {
+    const Vertex& vertex = path.vertex;
     const glm::dvec3& point = vertex.ray.origin;
     const std::optional<LampSample> lamp = lamps_.sample(point, random);
     if (!lamp) return glm::dvec3(0.0);
@@ -163,7 +174,7 @@ glm::dvec3 PathTracer::lampLight(const Vertex& vertex, Random& random) const {
     if (!hit || hit->surface != lamp->surface) return glm::dvec3(0.0);
     double weight = chance / (density(vertex, lamp->direction) + lamp->density);
     weight = clouds_.passed(vertex.voxels, lamp->direction, random, weight, 0.0, hit->metres);
-    glm::dvec3 light = weight * surfaces_[lamp->surface].emission;
+    glm::dvec3 light = weight * surfaces_[lamp->surface].emission * hue(path, lamp->direction);
     if (!fog_.empty()) light *= fog_.transmittance(shadow, hit->metres);
     return light;
 }
@@ -179,7 +190,8 @@ glm::dvec3 PathTracer::sunByChance(const Vertex& vertex) const {
 
 /// Share of the sun's fluence that goes on along the path, 1/sr, by a shadow ray to a point of the disc, without the
 /// share that `sunByChance` covers. No path meets a point-like sun by chance, so the shadow ray has all of its light.
-glm::dvec3 PathTracer::sunTransmission(const Vertex& vertex, double strength, Random& random) const {
+glm::dvec3 PathTracer::sunTransmission(const Path& path, double strength, Random& random) const {
+    const Vertex& vertex = path.vertex;
     const glm::dvec3 toSun = environment_.sampleSun(random);
     const double expected = density(vertex, toSun) * glm::two_pi<double>() * environment_.sunCone();
     double weight = response(vertex, toSun) / (1.0 + expected);
@@ -191,7 +203,7 @@ glm::dvec3 PathTracer::sunTransmission(const Vertex& vertex, double strength, Ra
     const Ray shadow{vertex.ray.origin, toSun};
     if (surfaces_.block(shadow, vertex.surface())) return glm::dvec3(0.0);
     weight = clouds_.passed(vertex.voxels, toSun, random, weight, threshold);
-    const glm::dvec3 light = weight * environment_.sunTransmittance(vertex.ray.origin);
+    const glm::dvec3 light = weight * environment_.sunTransmittance(vertex.ray.origin) * hue(path, toSun);
     if (fog_.empty()) return light;
     return light * fog_.transmittance(shadow, std::numeric_limits<double>::infinity());
 }
@@ -199,7 +211,7 @@ glm::dvec3 PathTracer::sunTransmission(const Vertex& vertex, double strength, Ra
 /// Follows the path to its next event, adds the light there to the sample, and continues. Returns false if the path
 /// ends.
 bool PathTracer::step(Path& path, PathSample& sample, std::vector<Path>& branches, Random& random) const {
-    auto& [vertex, throughput] = path;
+    auto& [vertex, throughput, collisions] = path;
     const Event event = nextEvent(vertex, throughput, random);
     double share = fog_.empty() ? 1.0 : crossFog(vertex, event, sample.radiance, throughput, random);
     if (event.place == Place::sky) {
@@ -212,13 +224,14 @@ bool PathTracer::step(Path& path, PathSample& sample, std::vector<Path>& branche
     }
     if (event.place == Place::surface) sample.radiance += throughput * emissionAt(vertex, event);
     arrive(vertex, event);
+    if (event.place == Place::cloud) ++collisions;
     if (event.place != Place::fog) share = scatter(vertex, throughput);
     if (!(glm::compMax(throughput) > 0.0)) return false;
     if (environment_.sunny() && isLit(vertex)) {
         sample.radiance +=
-            throughput * environment_.sunFluence() * sunTransmission(vertex, glm::compMax(throughput) / share, random);
+            throughput * environment_.sunFluence() * sunTransmission(path, glm::compMax(throughput) / share, random);
     }
-    if (!lamps_.empty()) sample.radiance += throughput * lampLight(vertex, random);
+    if (!lamps_.empty()) sample.radiance += throughput * lampLight(path, random);
     if (aureole_) branch(path, branches, random);
     // absorption ends the path only after the light of the collision itself was added
     return survives(throughput, share, random) && head(path, turn(vertex, random), random);

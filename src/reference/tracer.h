@@ -74,6 +74,7 @@ class PathTracer {
     struct Path {
         Vertex vertex;
         glm::dvec3 throughput{1.0};
+        int collisions = 0;  ///< with clouds
     };
 
     /// The next event of a path; infinitely far if that is the sky.
@@ -91,14 +92,15 @@ class PathTracer {
     const PhaseFunction& phaseAt(const Vertex& vertex) const;
     glm::dvec3 turn(const Vertex& vertex, Random& random) const;
     double response(const Vertex& vertex, const glm::dvec3& toLight) const;
+    glm::dvec3 hue(const Path& path, const glm::dvec3& toLight) const;
     double density(const Vertex& vertex, const glm::dvec3& direction) const;
     bool head(Path& path, const glm::dvec3& direction, Random& random) const;
     void branch(const Path& path, std::vector<Path>& branches, Random& random) const;
     bool step(Path& path, PathSample& sample, std::vector<Path>& branches, Random& random) const;
     glm::dvec3 emissionAt(const Vertex& vertex, const Event& event) const;
-    glm::dvec3 lampLight(const Vertex& vertex, Random& random) const;
+    glm::dvec3 lampLight(const Path& path, Random& random) const;
     glm::dvec3 sunByChance(const Vertex& vertex) const;
-    glm::dvec3 sunTransmission(const Vertex& vertex, double strength, Random& random) const;
+    glm::dvec3 sunTransmission(const Path& path, double strength, Random& random) const;
     bool isLit(const Vertex& vertex) const { return vertex.place != Place::fog || inscattering_; }
 
     Environment environment_;

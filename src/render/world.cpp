@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "light/photon/emission.h"
+#include "medium/phase_note.h"
 #include "view/camera.h"
 #include "volume/load.h"
 
@@ -98,6 +99,8 @@ class Maker {
 CloudVolumes Maker::load() {
     CloudVolumes volumes = loadClouds(scene_, options_.report, options_.check);
     report_.warnings = std::move(volumes.warnings);
+    for (const scene::Cloud& cloud : scene_.clouds)
+        if (auto note = phase::normalisationNote(cloud.phase)) report_.warnings.push_back(std::move(*note));
     report_.clouds = summarise(scene_, volumes);
     if (options_.loaded) options_.loaded(report_.clouds, report_.warnings);
     std::vector<Bounds> bounds;

@@ -53,7 +53,7 @@ struct Phase {
     double dropletDiameter = 20.0;   ///< µm, 5 to 50, for `droplet`
     double effectiveRadius = 10.0;   ///< µm, 2 to 50, for `mie`
     double effectiveVariance = 0.1;  ///< of the gamma distribution of radii, for `mie`
-    std::filesystem::path table;     ///< of angle and value, for `table`
+    std::filesystem::path table{};   ///< of angle and value, for `table`
 
     bool operator==(const Phase&) const = default;
 };
