@@ -13,7 +13,8 @@ layout(constant_id = 1) const bool SUN = true;      // the sun shines
 layout(constant_id = 2) const bool PHOTONS = true;  // there is a photon map
 layout(constant_id = 4) const bool MANY = false;     // more than one instance
 layout(constant_id = 5) const bool AIR = false;      // an atmosphere: the sun's light differs by place
-layout(constant_id = 3) const bool GREY = false;     // the albedo is the same for all colours
+layout(constant_id = 3) const bool GREY = false;     // albedo and phase function are the same for all colours
+layout(constant_id = 8) const bool COLOURED = false; // the phase function of a cloud differs between colours
 
 layout(binding = 0, scalar) readonly buffer Params { DrawParams storedParams; };
 layout(binding = 1, scalar) readonly buffer PhaseTable { float phaseTable[]; };

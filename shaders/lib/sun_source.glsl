@@ -1,7 +1,7 @@
 // The sun's light that scattered once, per unit of σs and irradiance (single_scattering.h has the formula). The includer
 // declares the buffer PhaseTable, the tables singleScatterH and singleScatterK as pictures (optical depth across, angle down,
-// one medium below the other) and the constants FORWARD_CUT: whether the forward peak is cut, and GREY: whether
-// extinctionScale and tables are the same for all colours.
+// one medium below the other) and the constants FORWARD_CUT: whether the forward peak is cut, GREY: whether
+// extinctionScale and tables are the same for all colours, and COLOURED: whether PhaseTable has three values an entry.
 #ifndef LUMULUS_LIB_SUN_SOURCE
 #define LUMULUS_LIB_SUN_SOURCE
 
@@ -14,17 +14,25 @@ vec3 expScaled(vec3 x) { return GREY ? vec3(exp(x.x)) : exp(x); }
 
 /// What of the sun's light depends on the view direction alone.
 struct SunView {
-    float phase;      // p(θ)
+    vec3 phase;       // p(θ)
     TableCell angle;  // in the single-scattering tables
     int firstRow;     // of the medium's tables
 };
+
+/// p between an entry of PhaseTable and the next.
+vec3 phaseInCell(int first, float fraction) {
+    if (!COLOURED) return vec3(exp(mix(phaseTable[first], phaseTable[first + 1], fraction)));
+    const int red = 3 * first;
+    return exp(mix(vec3(phaseTable[red], phaseTable[red + 1], phaseTable[red + 2]),
+                   vec3(phaseTable[red + 3], phaseTable[red + 4], phaseTable[red + 5]), fraction));
+}
 
 SunView sunView(InstanceParams instance, vec3 viewDirection) {
     const ScatterAngle angle = angleBetween(params.light.sunTravel, -viewDirection);
     const float axis = angleToAxis(angle, instance.angleScale);
     const TableCell cell = tableCell(axis, phaseTableSize);
     const int first = MANY ? instance.phaseTable * phaseTableSize + cell.base : cell.base;
-    return SunView(exp(mix(phaseTable[first], phaseTable[first + 1], cell.fraction)),
+    return SunView(phaseInCell(first, cell.fraction),
                    tableCell(axis, singleScatterAngleCount),
                    MANY ? instance.phaseTable * (singleScatterAngleCount - 1) : 0);
 }
@@ -59,7 +67,7 @@ vec3 singleScatterAfter(SunView sun, InstanceParams instance, float tau) {
 vec3 sunScattered(SunView sun, InstanceParams instance, float tauSun, float tauView, float thickness) {
     // 1 − e^−x without cancellation for thin segments
     const float filled = thickness < 1.0e-3 ? thickness * (1.0 - 0.5 * thickness) : 1.0 - exp(-thickness);
-    vec3 source = vec3(sun.phase * exp(-tauSun - tauView) * filled);
+    vec3 source = sun.phase * exp(-tauSun - tauView) * filled;
     if (FORWARD_CUT) {
         const vec3 scale = instance.extinctionScale;
         source += singleScatterBefore(sun, instance, tauSun) * expScaled(-scale * tauSun) * (exp(-tauView) * filled);

@@ -44,18 +44,24 @@ std::vector<const std::vector<float>*> each(std::span<const phase::ScatteringTab
     return tables;
 }
 
-std::vector<float> joined(const std::vector<const std::vector<float>*>& tables) {
+/// The phase functions of all media; three values an entry for each where those of some differ between colours.
+std::vector<float> phaseTables(std::span<const phase::ScatteringTables* const> media, bool coloured) {
     std::vector<float> all;
-    for (const std::vector<float>* table : tables) all.insert(all.end(), table->begin(), table->end());
+    for (const phase::ScatteringTables* medium : media) {
+        const std::size_t copies = coloured && !medium->coloured ? 3 : 1;
+        for (const float value : medium->phaseTable) all.insert(all.end(), copies, value);
+    }
     return all;
 }
 
 }  // namespace
 
-PhaseTables::PhaseTables(gpu::Context& context, std::span<const phase::ScatteringTables* const> media, bool grey)
-    : phase(gpu::filledBuffer(context, "phase table", joined(each(media, &phase::ScatteringTables::phaseTable)))),
-      before(tablePicture(context, "single scattering H", each(media, &phase::ScatteringTables::singleScatterH), grey)),
-      after(tablePicture(context, "single scattering K", each(media, &phase::ScatteringTables::singleScatterK), grey)) {
-}
+PhaseTables::PhaseTables(gpu::Context& context, std::span<const phase::ScatteringTables* const> media,
+                         const DrawFeatures& how)
+    : phase(gpu::filledBuffer(context, "phase table", phaseTables(media, how.coloured))),
+      before(tablePicture(context, "single scattering H", each(media, &phase::ScatteringTables::singleScatterH),
+                          how.grey)),
+      after(tablePicture(context, "single scattering K", each(media, &phase::ScatteringTables::singleScatterK),
+                         how.grey)) {}
 
 }  // namespace lumulus::draw

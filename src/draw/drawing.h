@@ -15,23 +15,25 @@ struct DrawFeatures {
     bool forwardCut = false;  ///< the forward peak is cut
     bool sun = false;
     bool photons = false;
-    bool grey = false;    ///< the albedo of each cloud is the same for all colours
-    bool many = false;    ///< more than one instance
-    bool ground = false;  ///< rays of a march end at a ground
-    bool sparse = false;  ///< densities are in bricks
-    bool air = false;     ///< the sky is an atmosphere
+    bool grey = false;      ///< albedo and phase function of each cloud are the same for all colours
+    bool coloured = false;  ///< the phase function of a cloud differs between colours
+    bool many = false;      ///< more than one instance
+    bool ground = false;    ///< rays of a march end at a ground
+    bool sparse = false;    ///< densities are in bricks
+    bool air = false;       ///< the sky is an atmosphere
 
     std::vector<gpu::SpecConstant> constants() const {
-        return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun),  gpu::SpecConstant::of(2, photons),
-                gpu::SpecConstant::of(3, grey),       gpu::SpecConstant::of(4, many), gpu::SpecConstant::of(5, air),
-                gpu::SpecConstant::of(15, sparse)};
+        return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun),
+                gpu::SpecConstant::of(2, photons),    gpu::SpecConstant::of(3, grey),
+                gpu::SpecConstant::of(4, many),       gpu::SpecConstant::of(5, air),
+                gpu::SpecConstant::of(8, coloured),   gpu::SpecConstant::of(15, sparse)};
     }
 };
 
 /// Phase functions of the drawing passes on the GPU: the tables of all media, one after the other (InstanceParams has
 /// their numbers).
 struct PhaseTables {
-    PhaseTables(gpu::Context& context, std::span<const phase::ScatteringTables* const> media, bool grey);
+    PhaseTables(gpu::Context& context, std::span<const phase::ScatteringTables* const> media, const DrawFeatures& how);
     gpu::Buffer phase;
     gpu::Image before, after;  ///< single-scattering tables H and K; a single texel where no peak is cut
 };

@@ -38,7 +38,7 @@ double solve(const Density& density, double begin, double end, double mass) {
 
 std::vector<float> makeInverseCdf(const PhaseFunction& phase, double thetaCut) {
     const auto density = [&phase](double theta) { return 2.0 * pi * std::sin(theta) * phase.evaluateAngle(theta); };
-    const std::vector<double> ends = anglePanels(thetaCut, pi, 0.5 * phase.lobeWidth(), 0.25);
+    const std::vector<double> ends = phase.panels(thetaCut, pi);
     // mass between the begin of a panel and π
     std::vector<double> beyond(ends.size(), 0.0);
     for (std::size_t i = ends.size() - 1; i-- > 0;) {

@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/error.h"
+#include "medium/mie.h"
 #include "medium/moments.h"
 #include "medium/quadrature.h"
+#include "scene/phase_table_file.h"
 
 namespace lumulus::phase {
 
@@ -58,6 +60,26 @@ void requireAsymmetry(double g, double limit, const char* why) {
     }
 }
 
+void requireDroplet(const scene::Phase& phase) {
+    constexpr double least = 2.0, most = 50.0;
+    if (phase.effectiveRadius >= least && phase.effectiveRadius <= most && phase.effectiveVariance > 0.0 &&
+        phase.effectiveVariance <= 0.5)
+        return;
+    throw InputError(fmt::format("droplets of effective radius {} and variance {} are out of range",
+                                 phase.effectiveRadius, phase.effectiveVariance),
+                     "phase.effective_radius", "give a radius from 2 to 50 micrometres and a variance of at most 0.5");
+}
+
+TabulatedPhase tableOf(const std::filesystem::path& file) {
+    try {
+        scene::PhaseTable table = scene::readPhaseTable(file);
+        for (double& angle : table.angles) angle *= pi / 180.0;
+        return {std::move(table.angles), std::move(table.values)};
+    } catch (const scene::PhaseTableError& e) {
+        throw InputError(e.fault, e.place, e.mend);
+    }
+}
+
 }  // namespace
 
 DropletFit dropletFit(double diameter) {
@@ -99,12 +121,22 @@ PhaseFunction::PhaseFunction(const scene::Phase& phase) : model_(phase.model) {
         case scene::PhaseModel::murky:
             break;
         case scene::PhaseModel::mie:
+            requireDroplet(phase);
+            table_ = mieColours(phase.effectiveRadius, phase.effectiveVariance)->mean.front();
+            lobeWidth_ = table_->lobeWidth();
+            break;
         case scene::PhaseModel::table:
+            table_ = tableOf(phase.table);
+            lobeWidth_ = table_->lobeWidth();
             break;
     }
 }
 
+PhaseFunction::PhaseFunction(TabulatedPhase table)
+    : model_(scene::PhaseModel::table), table_(std::move(table)), lobeWidth_(table_->lobeWidth()) {}
+
 double PhaseFunction::evaluateAngle(double theta) const {
+    if (table_) return table_->evaluate(theta);
     const double s = std::sin(0.5 * theta);
     const double c = std::cos(0.5 * theta);
     return evaluate(2.0 * s * s, 2.0 * c * c);
@@ -130,8 +162,7 @@ double PhaseFunction::evaluate(double oneMinusCos, double onePlusCos) const {
         case scene::PhaseModel::table:
             break;
     }
-    assert(false);
-    return 0.0;
+    return table_->evaluate(2.0 * std::atan2(std::sqrt(oneMinusCos), std::sqrt(onePlusCos)));
 }
 
 std::vector<double> PhaseFunction::moments(int count) const {
@@ -153,8 +184,7 @@ std::vector<double> PhaseFunction::moments(int count) const {
         case scene::PhaseModel::table:
             break;
     }
-    assert(false);
-    return {};
+    return table_->moments(0.0, pi, count);
 }
 
 double PhaseFunction::forwardFraction(double thetaCut) const {
@@ -162,8 +192,30 @@ double PhaseFunction::forwardFraction(double thetaCut) const {
 }
 
 std::vector<double> PhaseFunction::forwardMoments(double thetaCut, int count) const {
+    if (table_) return table_->moments(0.0, thetaCut, count);
     const auto density = [this](double theta) { return evaluateAngle(theta); };
     return legendreMoments(density, 0.0, thetaCut, 0.5 * lobeWidth_, count);
+}
+
+std::vector<double> PhaseFunction::panels(double begin, double end) const {
+    constexpr double longest = 0.25;
+    if (!table_) return anglePanels(begin, end, 0.5 * lobeWidth_, longest);
+    std::vector<double> ends{begin};
+    // cells of the table are short where it matters; several of them share a panel
+    const double finest = 0.25 * lobeWidth_;
+    for (const double angle : table_->angles())
+        if (angle >= ends.back() + finest && angle <= end - finest) ends.push_back(angle);
+    ends.push_back(end);
+    return ends;
+}
+
+std::vector<PhaseFunction> colourChannels(const scene::Phase& phase) {
+    std::vector<PhaseFunction> channels;
+    if (phase.model != scene::PhaseModel::mie) return channels;
+    requireDroplet(phase);
+    const auto colours = mieColours(phase.effectiveRadius, phase.effectiveVariance);
+    for (const TabulatedPhase& channel : colours->channels) channels.emplace_back(channel);
+    return channels;
 }
 
 }  // namespace lumulus::phase

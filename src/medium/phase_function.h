@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "medium/tabulated_phase.h"
 #include "scene/scene.h"
 
 namespace lumulus::phase {
@@ -26,8 +28,12 @@ double schlickK(double g);
 class PhaseFunction {
   public:
     /// Errors: InputError for parameters without a phase function: |g| ≥ 1, |g| so large that Schlick's k reaches 1
-    /// (|g| ≥ 0.938), a droplet outside 5 to 50 µm.
+    /// (|g| ≥ 0.938), a droplet outside 5 to 50 µm, a radius outside 2 to 50 µm, a table that cannot be read. Of
+    /// droplets whose colours differ (`mie`) it is the mean by luminance.
     explicit PhaseFunction(const scene::Phase& phase);
+
+    /// A phase function by values at angles.
+    explicit PhaseFunction(TabulatedPhase table);
 
     double evaluate(double cosTheta) const { return evaluate(1.0 - cosTheta, 1.0 + cosTheta); }
     /// Evaluates p from 1 − cos θ, which keeps its digits in a narrow forward lobe.
@@ -35,7 +41,7 @@ class PhaseFunction {
     /// Evaluates p from θ in [0,π], with all digits in lobes at both poles.
     double evaluateAngle(double theta) const;
 
-    /// χ_l = ∫ p P_l dω, l = 0..count−1, in closed form; χ_0 = 1, χ_1 the mean cosine.
+    /// χ_l = ∫ p P_l dω, l = 0..count−1, in closed form or, of a table, by quadrature; χ_0 = 1, χ_1 the mean cosine.
     std::vector<double> moments(int count) const;
 
     /// Share of light that is scattered by less than thetaCut [radians].
@@ -47,6 +53,12 @@ class PhaseFunction {
     /// Width of the forward peak [radians]: roughly the angle within which p changes.
     double lobeWidth() const { return lobeWidth_; }
 
+    /// The values at angles, of the models that have them; null for closed forms.
+    const TabulatedPhase* table() const { return table_ ? &*table_ : nullptr; }
+
+    /// Ends of panels that divide the angles [begin,end] ⊂ [0,π] so that one rule of 16 points suits p on each.
+    std::vector<double> panels(double begin, double end) const;
+
   private:
     double evaluate(double oneMinusCos, double onePlusCos) const;
 
@@ -54,7 +66,11 @@ class PhaseFunction {
     double g_ = 0.0;
     double k_ = 0.0;
     DropletFit fit_;
+    std::optional<TabulatedPhase> table_;
     double lobeWidth_ = 0.25;
 };
+
+/// The phase functions of red, green and blue where they differ; none where all are the same.
+std::vector<PhaseFunction> colourChannels(const scene::Phase& phase);
 
 }  // namespace lumulus::phase

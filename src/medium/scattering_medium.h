@@ -13,7 +13,7 @@ struct ScatteringMedium {
     ScatteringTables tables;
 
     bool scatters() const { return albedo != glm::dvec3(0.0); }
-    bool isGrey() const { return albedo == glm::dvec3(albedo.x); }
+    bool isGrey() const { return albedo == glm::dvec3(albedo.x) && !tables.coloured; }
 };
 
 }  // namespace lumulus::phase

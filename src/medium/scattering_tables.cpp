@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "medium/axes.h"
 #include "medium/inverse_cdf.h"
@@ -19,24 +20,31 @@ namespace lumulus::phase {
 
 namespace {
 
-std::vector<float> makePhaseTable(const PhaseFunction& phase, double angleScale, double discRadius) {
-    std::vector<float> table(static_cast<std::size_t>(shared::phaseTableSize));
+constexpr double leastPhase = 1e-12;  // of a table that has zeros: its logarithm is finite
+
+/// Of one phase function, or of those of red, green and blue.
+std::vector<float> makePhaseTable(std::span<const PhaseFunction> channels, double angleScale, double discRadius) {
+    constexpr auto size = static_cast<std::size_t>(shared::phaseTableSize);
+    std::vector<float> table(size * channels.size());
     tbb::parallel_for(std::size_t{0}, table.size(), [&](std::size_t i) {
-        const double theta = axisToAngle(static_cast<double>(i) / static_cast<double>(table.size() - 1), angleScale);
-        table[i] = static_cast<float>(std::log(averageOverDisc(phase, theta, discRadius)));
+        const auto entry = static_cast<double>(i / channels.size());
+        const double theta = axisToAngle(entry / static_cast<double>(size - 1), angleScale);
+        const double p = averageOverDisc(channels[i % channels.size()], theta, discRadius);
+        table[i] = static_cast<float>(std::log(std::max(p, leastPhase)));
     });
     return table;
 }
 
-void addSingleScattering(ScatteringTables& tables, const PhaseFunction& phase, double cut, const glm::dvec3& albedo,
-                         double discRadius) {
-    const SingleScatteringSeries series = makeSingleScatteringSeries(phase, cut, discRadius);
-    const glm::dvec3 extinctionScale = 1.0 - albedo * series.inside[0];
+void addSingleScattering(ScatteringTables& tables, std::span<const PhaseFunction> channels, double forward, double cut,
+                         const glm::dvec3& albedo, double discRadius) {
+    std::vector<SingleScatteringSeries> series;
+    for (const PhaseFunction& phase : channels) series.push_back(makeSingleScatteringSeries(phase, cut, discRadius));
+    const glm::dvec3 extinctionScale = 1.0 - albedo * forward;
     // e^−20 of the light is left there; a nearly conservative forward lobe lasts longer than any cloud is deep
     const double slowest = std::min({extinctionScale.r, extinctionScale.g, extinctionScale.b});
     const double tauMaximum = std::min(20.0 / slowest, 1e5);
     SingleScatteringTables forwardCut =
-        makeSingleScatteringTables(series, albedo, static_cast<double>(tables.angleScale), tauMaximum);
+        makeSingleScatteringTables(series, albedo, forward, static_cast<double>(tables.angleScale), tauMaximum);
     tables.singleScatterH = std::move(forwardCut.h);
     tables.singleScatterK = std::move(forwardCut.k);
     tables.tauMaximum = static_cast<float>(tauMaximum);
@@ -78,10 +86,13 @@ ScatteringTables makeScatteringTables(const scene::Phase& phase, double cutRadia
         tables.inverseCdf = makeInverseCdf(function, cutRadians);
     }
     tables.angleScale = static_cast<float>(function.lobeWidth());
-    tables.phaseTable = makePhaseTable(function, static_cast<double>(tables.angleScale), discRadius);
+    std::vector<PhaseFunction> channels = colourChannels(phase);
+    tables.coloured = !channels.empty();
+    if (channels.empty()) channels.push_back(function);
+    tables.phaseTable = makePhaseTable(channels, static_cast<double>(tables.angleScale), discRadius);
     if (hasBackwardPeak(function)) addAxisTable(tables, phase, bands);
     if (cutRadians > 0.0) {
-        addSingleScattering(tables, function, cutRadians, albedo, discRadius);
+        addSingleScattering(tables, channels, forward[0], cutRadians, albedo, discRadius);
     }
     return tables;
 }

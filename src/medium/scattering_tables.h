@@ -27,8 +27,10 @@ struct ScatteringTables {
     /// backward peak.
     SharedTable axisTable;
     /// ln p [ln 1/sr], p averaged over the sun's disc, phaseTableSize entries, looked up with
-    /// tableCell(angleToAxis(angle, angleScale), phaseTableSize).
+    /// tableCell(angleToAxis(angle, angleScale), phaseTableSize); where colours differ, red, green and blue of each
+    /// entry.
     SharedTable phaseTable;
+    bool coloured = false;  ///< whether p differs between colours; everything else holds their mean by luminance
 
     /// The smooth parts of the sun's light that scattered once (single_scattering.h), divided by
     /// exp(−extinctionScale·τ), RGB, singleScatterAngleCount × singleScatterTauCount; both empty (H = K = 0) where θc =

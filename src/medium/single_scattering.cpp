@@ -61,13 +61,13 @@ struct Weights {
 
 /// Makes the weights and ends them after the last that matters: each dropped one is below 3e−9 of the sum of all, and
 /// their signs alternate.
-Weights makeWeights(const SingleScatteringSeries& series, double scatteringDepth) {
+Weights makeWeights(const SingleScatteringSeries& series, double scatteringDepth, double forward) {
     const std::size_t terms = series.inside.size();
     Weights weights{std::vector<double>(terms), std::vector<double>(terms)};
     double all = 0.0;
     for (std::size_t l = 0; l < terms; ++l) {
         const double common = (2.0 * static_cast<double>(l) + 1.0) / (4.0 * pi) * series.disc[l] *
-                              growth(scatteringDepth * series.inside[l], scatteringDepth * series.inside[0]);
+                              growth(scatteringDepth * series.inside[l], scatteringDepth * forward);
         weights.h[l] = common * series.inside[l];
         weights.k[l] = common * series.outside[l];
         all += std::abs(weights.h[l]) + std::abs(weights.k[l]);
@@ -144,10 +144,13 @@ SingleScatteringSeries makeSingleScatteringSeries(const PhaseFunction& phase, do
     }
 }
 
-SingleScatteringTables makeSingleScatteringTables(const SingleScatteringSeries& series, const glm::dvec3& albedo,
-                                                  double angleScale, double tauMaximum) {
-    const std::vector<double> legendre = legendreTable(series.inside.size(), angleScale);
-    const bool grey = albedo.r == albedo.g && albedo.g == albedo.b;
+SingleScatteringTables makeSingleScatteringTables(std::span<const SingleScatteringSeries> series,
+                                                  const glm::dvec3& albedo, double forward, double angleScale,
+                                                  double tauMaximum) {
+    std::size_t terms = 0;
+    for (const SingleScatteringSeries& one : series) terms = std::max(terms, one.inside.size());
+    const std::vector<double> legendre = legendreTable(terms, angleScale);
+    const bool grey = series.size() == 1 && albedo.r == albedo.g && albedo.g == albedo.b;
     const std::size_t channels = grey ? 1 : 3;
     SingleScatteringTables tables{std::vector<float>(3 * angles * taus), std::vector<float>(3 * angles * taus)};
     static_assert(taus % rowsPerTask == 0);
@@ -156,7 +159,9 @@ SingleScatteringTables makeSingleScatteringTables(const SingleScatteringSeries& 
         for (std::size_t i = 0; i < rowsPerTask * channels; ++i) {
             const double row = static_cast<double>(task * rowsPerTask + i / channels);
             const double tau = axisToTau(row / static_cast<double>(taus - 1), tauMaximum);
-            weights.push_back(makeWeights(series, albedo[static_cast<glm::length_t>(i % channels)] * tau));
+            const std::size_t channel = i % channels;
+            weights.push_back(makeWeights(series[series.size() == 1 ? 0 : channel],
+                                          albedo[static_cast<glm::length_t>(channel)] * tau, forward));
         }
         const std::vector<Sums> sums = sumSeries(weights, legendre);
         for (std::size_t entry = 0; entry < rowsPerTask * 3; ++entry) {

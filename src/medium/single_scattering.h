@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "medium/phase_function.h"
@@ -31,8 +32,10 @@ struct SingleScatteringSeries {
 /// sharper peaks by 0.005°. Angles are in radians.
 SingleScatteringSeries makeSingleScatteringSeries(const PhaseFunction& phase, double thetaCut, double discRadius);
 
-/// Computes the tables for an RGB albedo; `angleScale` and `tauMaximum` are those of the axes.
-SingleScatteringTables makeSingleScatteringTables(const SingleScatteringSeries& series, const glm::dvec3& albedo,
-                                                  double angleScale, double tauMaximum);
+/// Computes the tables for an RGB albedo of one series, or of three, for red, green and blue. `forward` is the f of the
+/// factor that the tables are divided by; `angleScale` and `tauMaximum` are those of the axes.
+SingleScatteringTables makeSingleScatteringTables(std::span<const SingleScatteringSeries> series,
+                                                  const glm::dvec3& albedo, double forward, double angleScale,
+                                                  double tauMaximum);
 
 }  // namespace lumulus::phase

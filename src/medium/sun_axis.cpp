@@ -35,7 +35,8 @@ double solidAngle(double radius) {
 }  // namespace
 
 bool hasBackwardPeak(const PhaseFunction& phase) {
-    return phase.evaluateAngle(pi) > peaked * phase.evaluateAngle(pi - nearBackward);
+    // a glory of droplets is too faint for light to go to and fro
+    return phase.table() == nullptr && phase.evaluateAngle(pi) > peaked * phase.evaluateAngle(pi - nearBackward);
 }
 
 std::vector<float> makeAxisTable(const PhaseFunction& mirrored, double angleScale, int bands) {

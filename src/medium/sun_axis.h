@@ -8,7 +8,7 @@
 namespace lumulus::phase {
 
 /// Whether a phase function has a backward peak so sharp that the bands of a collector cannot hold the light that goes
-/// to and fro along the sun's axis.
+/// to and fro along the sun's axis. Tables have none.
 bool hasBackwardPeak(const PhaseFunction& phase);
 
 /// The mean of p [1/sr] over the directions of each ring without its Legendre terms below `bands`, by the angle between

@@ -5,6 +5,8 @@
 #include <glm/gtc/constants.hpp>
 
 #include "base/error.h"
+#include "reference/droplets.h"
+#include "scene/phase_table_file.h"
 
 namespace lumulus::reference {
 namespace {
@@ -70,6 +72,27 @@ double sampleDraine(double g, double alpha, Random& random) {
 
 constexpr double hazyPower = 8.0, murkyPower = 32.0;
 
+/// A file's values, linear in the angle there and so more densely in 1 − cos θ.
+std::vector<PhaseValues> valuesOf(const std::filesystem::path& file) {
+    std::vector<double> places, values;
+    try {
+        const scene::PhaseTable table = scene::readPhaseTable(file);
+        constexpr int parts = 16;
+        for (std::size_t i = 0; i + 1 < table.angles.size(); ++i)
+            for (int k = 0; k < parts; ++k) {
+                const double t = static_cast<double>(k) / parts;
+                const double half = 0.5 * glm::radians(glm::mix(table.angles[i], table.angles[i + 1], t));
+                places.push_back(2.0 * std::sin(half) * std::sin(half));
+                values.push_back(glm::mix(table.values[i], table.values[i + 1], t));
+            }
+        places.push_back(2.0);
+        values.push_back(table.values.back());
+    } catch (const scene::PhaseTableError& e) {
+        throw InputError(e.fault, e.place, e.mend);
+    }
+    return {PhaseValues(std::move(places), std::move(values))};
+}
+
 }  // namespace
 
 PhaseFunction::PhaseFunction(const scene::Phase& phase) : model_(phase.model), g_(phase.g) {
@@ -85,6 +108,13 @@ PhaseFunction::PhaseFunction(const scene::Phase& phase) : model_(phase.model), g
             throw InputError("no fit for droplets of this diameter", "cloud.phase.droplet_diameter", "give 5 to 50 µm");
         }
     }
+    if (model_ == scene::PhaseModel::mie) {
+        if (!(phase.effectiveRadius >= 2.0 && phase.effectiveRadius <= 50.0) ||
+            !(phase.effectiveVariance > 0.0 && phase.effectiveVariance <= 0.5))
+            throw InputError("no droplets of this size", "cloud.phase.effective_radius", "give a radius of 2 to 50 µm");
+        values_ = makeDroplets(phase.effectiveRadius, phase.effectiveVariance).colours;
+    }
+    if (model_ == scene::PhaseModel::table) values_ = valuesOf(phase.table);
     if (!(std::abs(g_) < 1.0)) {
         throw InputError("the peak of the phase function is too narrow", "cloud.phase.g", "give a |g| nearer to 0");
     }
@@ -116,7 +146,7 @@ double PhaseFunction::evaluate(double oneMinusCos) const {
             break;
         case scene::PhaseModel::mie:
         case scene::PhaseModel::table:
-            break;
+            return values_.back().evaluate(oneMinusCos);
     }
     return (1.0 - draineShare_) * henyeyGreenstein(g_, oneMinusCos) +
            draineShare_ * draine(draineG_, draineAlpha_, oneMinusCos);
@@ -138,10 +168,17 @@ double PhaseFunction::sample(Random& random) const {
             break;
         case scene::PhaseModel::mie:
         case scene::PhaseModel::table:
-            break;
+            return values_.back().invert(random.uniform());
     }
     if (random.uniform() < draineShare_) return sampleDraine(draineG_, draineAlpha_, random);
     return sampleHenyeyGreenstein(g_, random.uniform());
+}
+
+glm::dvec3 PhaseFunction::hue(double oneMinusCos) const {
+    if (!coloured()) return glm::dvec3(1.0);
+    const glm::dvec3 rgb(values_[0].evaluate(oneMinusCos), values_[1].evaluate(oneMinusCos),
+                         values_[2].evaluate(oneMinusCos));
+    return rgb / values_[3].evaluate(oneMinusCos);
 }
 
 glm::dvec3 turned(const glm::dvec3& direction, double oneMinusCos, Random& random) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <vector>
 
+#include "reference/phase_values.h"
 #include "reference/random.h"
 #include "scene/scene.h"
 
@@ -29,6 +31,10 @@ class PhaseFunction {
     /// Draws 1 − cos θ of a scattering event, in [0, 2].
     double sample(Random& random) const;
 
+    /// p of red, green and blue over `evaluate`; 1 but for droplets by Mie's theory.
+    glm::dvec3 hue(double oneMinusCos) const;
+    bool coloured() const { return values_.size() > 1; }
+
   private:
     scene::PhaseModel model_;
     double g_ = 0.0;  ///< of Henyey–Greenstein; Schlick's k
@@ -36,6 +42,7 @@ class PhaseFunction {
     double draineG_ = 0.0;
     double draineAlpha_ = 0.0;
     double draineShare_ = 0.0;
+    std::vector<PhaseValues> values_;  ///< of models by values: red, green, blue and their mean, or one for all
 };
 
 /// The unit vector at an angle θ from `direction`, given as 1 − cos θ, with a random azimuth.

@@ -7,6 +7,7 @@
 
 #include "reference/fingerprint.h"
 #include "reference/ground.h"
+#include "scene/phase_table_file.h"
 
 namespace lumulus::reference {
 namespace {
@@ -22,7 +23,11 @@ void addCloud(Fingerprint& print, const scene::Cloud& cloud, const vdb::PlacedVo
     for (int axis = 0; axis < 3; ++axis) addVector(print, placed.toWorld.linear[axis]);
     addVector(print, placed.toWorld.translation);
     print.add(cloud.extinction * cloud.densityScale).add(cloud.phase.model).add(cloud.phase.g);
-    print.add(cloud.phase.dropletDiameter);
+    print.add(cloud.phase.dropletDiameter).add(cloud.phase.effectiveRadius).add(cloud.phase.effectiveVariance);
+    if (cloud.phase.model == scene::PhaseModel::table) {
+        const scene::PhaseTable table = scene::readPhaseTable(cloud.phase.table);
+        print.add(std::as_bytes(std::span(table.angles))).add(std::as_bytes(std::span(table.values)));
+    }
     addVector(print, cloud.albedo);
 }
 

@@ -165,6 +165,16 @@ double BasicPathTracer<Light>::response(const Vertex& vertex, const glm::dvec3& 
     return phaseAt(vertex).evaluate(oneMinusCosBetween(vertex.arrived, toLight));
 }
 
+/// What the phase function of droplets makes of the colours of light from a direction. Later scattering events by the
+/// mean of the colours: many of them would multiply to weights without bounds, and their colours have blurred by then.
+template <typename Light>
+Light BasicPathTracer<Light>::hue(const Path& path, const glm::dvec3& toLight) const {
+    constexpr int most = 6;
+    const Vertex& vertex = path.vertex;
+    if (vertex.place != Place::cloud || path.collisions > most) return Light(1.0);
+    return environment_.albedo(clouds_.phase(vertex.index).hue(oneMinusCosBetween(vertex.arrived, toLight)));
+}
+
 /// Density of paths that leave the vertex in a direction, 1/sr: by chance, and as branches to the aureole.
 template <typename Light>
 double BasicPathTracer<Light>::density(const Vertex& vertex, const glm::dvec3& direction) const {
@@ -177,6 +187,7 @@ double BasicPathTracer<Light>::density(const Vertex& vertex, const glm::dvec3& d
 template <typename Light>
 bool BasicPathTracer<Light>::head(Path& path, const glm::dvec3& direction, Random& random) const {
     Vertex& vertex = path.vertex;
+    path.throughput *= hue(path, direction);
     if (aureole_) {
         path.throughput *= response(vertex, direction) / density(vertex, direction);
         if (!survives(path.throughput, glm::compMax(path.throughput) * aureole_->importance(direction), random))
@@ -206,7 +217,8 @@ Light BasicPathTracer<Light>::emissionAt(const Vertex& vertex, const Event& even
 
 /// Light of a chosen lamp that reaches the vertex and goes on along the path.
 template <typename Light>
-Light BasicPathTracer<Light>::lampLight(const Vertex& vertex, Random& random) const {
+Light BasicPathTracer<Light>::lampLight(const Path& path, Random& random) const {
+    const Vertex& vertex = path.vertex;
     const glm::dvec3& point = vertex.ray.origin;
     const std::optional<LampSample> lamp = lamps_.sample(point, random);
     if (!lamp) return Light(0.0);
@@ -217,7 +229,7 @@ Light BasicPathTracer<Light>::lampLight(const Vertex& vertex, Random& random) co
     if (!hit || hit->surface != lamp->surface) return Light(0.0);
     double weight = chance / (density(vertex, lamp->direction) + lamp->density);
     weight = clouds_.passed(vertex.voxels, lamp->direction, random, weight, 0.0, hit->metres);
-    Light light = weight * environment_.emission(surfaces_[lamp->surface].emission);
+    Light light = weight * environment_.emission(surfaces_[lamp->surface].emission) * hue(path, lamp->direction);
     if (!haze_.empty()) light *= haze_.transmittance(shadow, hit->metres);
     return light;
 }
@@ -234,14 +246,15 @@ Light BasicPathTracer<Light>::skyByChance(const Vertex& vertex) const {
 
 /// Light of a direction that is drawn from the map of the sky, which reaches the vertex and goes on along the path.
 template <typename Light>
-Light BasicPathTracer<Light>::skyLight(const Vertex& vertex, Random& random) const {
+Light BasicPathTracer<Light>::skyLight(const Path& path, Random& random) const {
+    const Vertex& vertex = path.vertex;
     const SkyMapSample sky = environment_.sample(random);
     const double chance = response(vertex, sky.direction);
     const Ray shadow{vertex.ray.origin, sky.direction};
     if (!(chance > 0.0) || surfaces_.block(shadow, vertex.surface())) return Light(0.0);
     double weight = chance / (density(vertex, sky.direction) + sky.density);
     weight = clouds_.passed(vertex.voxels, sky.direction, random, weight, 0.0);
-    const Light light = weight * environment_.radiance(sky.direction);
+    const Light light = weight * environment_.radiance(sky.direction) * hue(path, sky.direction);
     return haze_.empty() ? light : light * haze_.transmittance(shadow, endless);
 }
 
@@ -258,7 +271,8 @@ Light BasicPathTracer<Light>::sunByChance(const Vertex& vertex) const {
 /// Share of the sun's fluence that goes on along the path, 1/sr, by a shadow ray to a point of the disc, without the
 /// share that `sunByChance` covers. No path meets a point-like sun by chance, so the shadow ray has all of its light.
 template <typename Light>
-Light BasicPathTracer<Light>::sunTransmission(const Vertex& vertex, double strength, Random& random) const {
+Light BasicPathTracer<Light>::sunTransmission(const Path& path, double strength, Random& random) const {
+    const Vertex& vertex = path.vertex;
     const SunDisc& sun = environment_.sun();
     const glm::dvec3 toSun = sun.sample(random);
     const double expected = density(vertex, toSun) * glm::two_pi<double>() * sun.cone();
@@ -271,15 +285,17 @@ Light BasicPathTracer<Light>::sunTransmission(const Vertex& vertex, double stren
     const Ray shadow{vertex.ray.origin, toSun};
     if (surfaces_.block(shadow, vertex.surface())) return Light(0.0);
     weight = clouds_.passed(vertex.voxels, toSun, random, weight, threshold);
-    if (haze_.empty() || weight == 0.0) return Light(weight);
-    return weight * haze_.transmittance(shadow, endless);
+    if (weight == 0.0) return Light(0.0);
+    const Light light = weight * hue(path, toSun);
+    if (haze_.empty()) return light;
+    return light * haze_.transmittance(shadow, endless);
 }
 
 /// Follows the path to its next event, adds the light there to what it found, and continues. Returns false if the path
 /// ends.
 template <typename Light>
 bool BasicPathTracer<Light>::step(Path& path, Found& found, std::vector<Path>& branches, Random& random) const {
-    auto& [vertex, throughput] = path;
+    auto& [vertex, throughput, collisions] = path;
     const Event event = nextEvent(vertex, throughput, random);
     double share = haze_.empty() ? 1.0 : crossHaze(vertex, event, found.radiance, throughput, random);
     if (event.place == Place::sky) {
@@ -293,14 +309,15 @@ bool BasicPathTracer<Light>::step(Path& path, Found& found, std::vector<Path>& b
     if (vertex.place == Place::eye) found.haze = event.place == Place::haze;
     if (event.place == Place::surface) found.radiance += throughput * emissionAt(vertex, event);
     arrive(vertex, event);
+    if (event.place == Place::cloud) ++collisions;
     if (event.place != Place::haze) share = scatter(vertex, throughput);
     if (!(glm::compMax(throughput) > 0.0)) return false;
     if (environment_.sunny() && isLit(vertex)) {
         found.radiance +=
-            throughput * environment_.sunFluence() * sunTransmission(vertex, glm::compMax(throughput) / share, random);
+            throughput * environment_.sunFluence() * sunTransmission(path, glm::compMax(throughput) / share, random);
     }
-    if (!lamps_.empty()) found.radiance += throughput * lampLight(vertex, random);
-    if (environment_.aimed() && isLit(vertex)) found.radiance += throughput * skyLight(vertex, random);
+    if (!lamps_.empty()) found.radiance += throughput * lampLight(path, random);
+    if (environment_.aimed() && isLit(vertex)) found.radiance += throughput * skyLight(path, random);
     if (aureole_) branch(path, branches, random);
     // absorption ends the path only after the light of the collision itself was added
     return survives(throughput, share, random) && head(path, turn(vertex, random), random);

@@ -104,6 +104,7 @@ class BasicPathTracer {
     struct Path {
         Vertex vertex;
         Light throughput{1.0};
+        int collisions = 0;  ///< with clouds
     };
 
     /// What a path has found.
@@ -130,17 +131,18 @@ class BasicPathTracer {
     const PhaseFunction& phaseAt(const Vertex& vertex) const;
     glm::dvec3 turn(const Vertex& vertex, Random& random) const;
     double response(const Vertex& vertex, const glm::dvec3& toLight) const;
+    Light hue(const Path& path, const glm::dvec3& toLight) const;
     double density(const Vertex& vertex, const glm::dvec3& direction) const;
     bool head(Path& path, const glm::dvec3& direction, Random& random) const;
     void branch(const Path& path, std::vector<Path>& branches, Random& random) const;
     PathSample sampleOf(const Found& found) const;
     bool step(Path& path, Found& found, std::vector<Path>& branches, Random& random) const;
     Light emissionAt(const Vertex& vertex, const Event& event) const;
-    Light lampLight(const Vertex& vertex, Random& random) const;
+    Light lampLight(const Path& path, Random& random) const;
     Light skyByChance(const Vertex& vertex) const;
-    Light skyLight(const Vertex& vertex, Random& random) const;
+    Light skyLight(const Path& path, Random& random) const;
     Light sunByChance(const Vertex& vertex) const;
-    Light sunTransmission(const Vertex& vertex, double strength, Random& random) const;
+    Light sunTransmission(const Path& path, double strength, Random& random) const;
     bool isLit(const Vertex& vertex) const { return vertex.place != Place::haze || inscattering_; }
 
     Sky environment_;

@@ -17,7 +17,7 @@ Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& d
       visible_(world.visible()),
       phaseTables_(visible_.size()),
       features_(featuresOf(world)),
-      phase_(makePhaseTables(context, world, features_.grey, phaseTables_)),
+      phase_(makePhaseTables(context, world, features_, phaseTables_)),
       none_(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT),
       noColours_(context, "no colours", glm::ivec2(1), VK_FORMAT_R32G32B32A32_SFLOAT),
       noSquares_(draw::noSquares(context)),

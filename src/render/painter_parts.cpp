@@ -11,6 +11,7 @@ draw::DrawFeatures featuresOf(const World& world) {
     features.forwardCut =
         std::ranges::any_of(instances, [](const auto* i) { return !i->medium.tables.singleScatterH.empty(); });
     features.grey = std::ranges::all_of(instances, [](const auto* i) { return i->medium.isGrey(); });
+    features.coloured = std::ranges::any_of(instances, [](const auto* i) { return i->medium.tables.coloured; });
     features.sun = world.hasShadows();
     features.photons = world.hasPhotons();
     features.many = instances.size() > 1;
@@ -25,7 +26,8 @@ std::vector<const cloud::Instance*> instancesOf(const World& world) {
     return instances;
 }
 
-draw::PhaseTables makePhaseTables(gpu::Context& context, const World& world, bool grey, std::span<int> numbers) {
+draw::PhaseTables makePhaseTables(gpu::Context& context, const World& world, const draw::DrawFeatures& how,
+                                  std::span<int> numbers) {
     const std::vector<const cloud::Instance*> instances = instancesOf(world);
     std::vector<const phase::ScatteringTables*> media;
     for (std::size_t place = 0; place < instances.size(); ++place) {
@@ -37,7 +39,7 @@ draw::PhaseTables makePhaseTables(gpu::Context& context, const World& world, boo
         numbers[place] = static_cast<int>(same - media.begin());
         if (same == media.end()) media.push_back(&tables);
     }
-    return {context, media, grey};
+    return {context, media, how};
 }
 
 void setPlace(shared::InstanceParams& params, const cloud::Instance& instance, const Camera& camera) {

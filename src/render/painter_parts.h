@@ -15,7 +15,8 @@ draw::DrawFeatures featuresOf(const World& world);
 std::vector<const cloud::Instance*> instancesOf(const World& world);
 
 /// Phase functions of all visible instances. Equal ones share tables: `numbers` becomes the number of each one's.
-draw::PhaseTables makePhaseTables(gpu::Context& context, const World& world, bool grey, std::span<int> numbers);
+draw::PhaseTables makePhaseTables(gpu::Context& context, const World& world, const draw::DrawFeatures& how,
+                                  std::span<int> numbers);
 
 void setPlace(shared::InstanceParams& params, const cloud::Instance& instance, const Camera& camera);
 /// `sun` as it reaches the instance; `phaseTable` as makePhaseTables() numbers it.

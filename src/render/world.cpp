@@ -10,6 +10,7 @@
 #include "cloud/bricks.h"
 #include "light/light_field.h"
 #include "medium/fog_media.h"
+#include "medium/phase_note.h"
 #include "render/importance.h"
 #include "render/world_assets.h"
 #include "view/camera.h"
@@ -102,6 +103,12 @@ class Maker {
 CloudVolumes Maker::load() {
     CloudVolumes volumes = loadClouds(scene_, options_.report, options_.check, FieldStorage::asWanted);
     report_.warnings = std::move(volumes.warnings);
+    const scene::Phase* noted = nullptr;
+    for (const scene::Cloud& cloud : scene_.clouds) {
+        if (noted != nullptr && *noted == cloud.phase) continue;  // the many clouds of a field have one
+        noted = &cloud.phase;
+        if (auto note = phase::normalisationNote(cloud.phase)) report_.warnings.push_back(std::move(*note));
+    }
     report_.clouds = summarise(scene_, volumes);
     if (options_.loaded) options_.loaded(report_.clouds, report_.warnings);
     std::vector<Bounds> bounds;

@@ -74,9 +74,9 @@ TEST_F(SchedulerTest, ClientsShareTheTime) {
         for (const ClientId client : asking) scheduler.submit(frame(client, ++id));
         const std::optional<Job> job = take();
         scheduler.done(*job);
-        const double milliseconds = job->client == 1 ? 100.0 : 20.0;
-        scheduler.charge(job->client, milliseconds);
-        EXPECT_EQ(scheduler.lastCost(job->client), milliseconds);
+        const double cost = job->client == 1 ? 100.0 : 20.0;
+        scheduler.charge(job->client, cost);
+        EXPECT_EQ(scheduler.lastCost(job->client), cost);
         return job->client;
     };
     std::map<ClientId, int> frames;
