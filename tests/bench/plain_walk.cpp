@@ -198,7 +198,7 @@ bool PlainWalk::collide(Photon& photon, const glm::vec3& voxel, Random& random, 
         angle = shared::sampleHg(tables.g, random(), tables.scatterFraction);
     } else {
         const shared::TableCell cell = shared::inverseCdfCell(random());
-        const float* entry = &tables.inverseCdf[cell.base];
+        const float* entry = tables.inverseCdf.values().data() + cell.base;
         angle = shared::angleFromOneMinusCos(entry[0] + cell.fraction * (entry[1] - entry[0]));
     }
     photon.direction = shared::rotateDirection(photon.direction, angle, 2.0F * std::numbers::pi_v<float> * random());
