@@ -39,7 +39,7 @@ class Maker {
           scene_(scene),
           options_(options),
           report_(report),
-          world_{scene.fog, {scene.sun, scene.sky}, {}, {}, {}, {}, {}, {}, {}, glm::dvec3(0.0)} {}
+          world_{scene.fog, {scene.sun, scene.sky}, {}, {}, {}, {}, {}, {}, {}, false, glm::dvec3(0.0)} {}
 
     World make() {
         const Stopwatch loading;
@@ -182,7 +182,7 @@ void Maker::makePhotonMap(const std::vector<std::size_t>& visible) {
     }
     if (visible.size() > 1) {
         world_.photons.emplace(context_, std::move(parts), *world_.sharedVolumes, options);
-        world_.photons->place(placements(world_, visible));
+        placeInstances(world_);
         return;
     }
     const photon::MapPart& only = parts.front();
@@ -214,15 +214,18 @@ World makeWorldBeside(gpu::Context& context, const scene::Scene& scene, const Wo
     return Maker(context, scene, options, report).makeBeside(other);
 }
 
+void placeInstances(World& world) {
+    const std::vector<std::size_t> visible = world.visible();
+    if (world.photons && visible.size() > 1) world.photons->place(placements(world, visible));
+}
+
 bool traceAll(World& world, const CutOff& cutOff) {
     if (world.photons) {
         const std::vector<std::size_t> visible = world.visible();
         const cloud::Instance& first = world.instances[visible.front()];
         scene::Sun sun = world.lights.sun;
-        if (visible.size() > 1)
-            world.photons->place(placements(world, visible));
-        else
-            sun = world.light[visible.front()].sun;
+        placeInstances(world);
+        if (visible.size() == 1) sun = world.light[visible.front()].sun;
         if (!world.photons->tryTrace(sun, world.lights.environment, cutOff, first.medium.extinction)) return false;
         world.photons->keep();
     }

@@ -31,8 +31,9 @@ struct World {
     std::optional<photon::PhotonMap> photons;  ///< of all instances; none where no photon would be of use
     /// Where several instances are lit by the sun: shadow volumes with what stands before them.
     std::optional<light::SharedShadow> sharedShadow;
-    Bounds bounds;         ///< of all instances, without their offsets
-    glm::dvec3 wind{0.0};  ///< velocity with which all instances drift [m/s]
+    Bounds bounds;                ///< of all instances, without their offsets
+    bool levelsOfDetail = false;  ///< whether instances have voxels chosen by their size in the picture
+    glm::dvec3 wind{0.0};         ///< velocity with which all instances drift [m/s]
 
     /// Numbers of the instances in which there is something.
     std::vector<std::size_t> visible() const;
@@ -63,6 +64,9 @@ World makeWorld(gpu::Context& context, const scene::Scene& scene, const WorldOpt
 /// has it, and no photons yet. Errors: as above.
 World makeWorldBeside(gpu::Context& context, const scene::Scene& scene, const World& other,
                       const WorldOptions& options);
+
+/// Tells the photon map of several clouds where they are now: after their places, extinctions or the sun have changed.
+void placeInstances(World& world);
 
 /// Traces a generation of photons through all clouds. Returns false where `cutOff` ended it: it does not count then.
 bool traceAll(World& world, const CutOff& cutOff);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
+#include <limits>
 
 #include "cloud/level_of_detail.h"
 #include "frame/view_params.h"
@@ -15,6 +16,8 @@ namespace {
 constexpr double degrees = 3.14159265358979323846 / 180.0;
 /// Metrics of voxels that differ by less have the same shape: rounding of rotations.
 constexpr double sameShape = 1e-6;
+/// Samples of the gradient for each leaf that a tree may have.
+constexpr int samplesOfLeaf = 16;
 /// Clouds out of the picture are as if they were so many times smaller.
 constexpr double unseen = 4.0;
 
@@ -68,30 +71,88 @@ class MediumMaker {
     std::vector<Known> known_;
 };
 
+/// Detail that an instance needs: a level, and collectors, which are the same for clouds of nearly one size.
+struct Detail {
+    int level = 0;
+    int collectors = std::numeric_limits<int>::max();
+
+    bool operator==(const Detail&) const = default;
+};
+
 /// Instances that share an asset.
 struct Group {
     const vdb::Volume* volume;
     glm::dmat3 shape;
-    int level;
+    Detail detail;
     std::vector<std::size_t> instances;
 };
 
-/// The level of detail of an instance in the picture of a camera.
-int levelFor(const cloud::Instance& instance, const glm::ivec3& size, const Camera& camera) {
+/// Sizes in the picture [pixels] that take the same number of collectors differ by this factor at most.
+constexpr double sameSize = 1.5;
+
+Detail detailFor(const cloud::Instance& instance, const glm::ivec3& size, const Camera& camera) {
     const glm::dvec3 middle = instance.toWorld(0.5 * glm::dvec3(size));
     const double radius = 0.5 * glm::length(instance.voxelToMetres * glm::dvec3(size));
     const glm::dvec3 away = middle - camera.position;
     const double distance = glm::length(away);
-    if (distance <= 1.5 * radius) return 0;
+    if (distance <= 1.5 * radius) return {};
     // pixels of a perspective grow with the depth, the smallest on the axis
     const double pixel = frame::pixelLength(camera, camera.position + (distance - radius) * camera.axes[2]);
     const bool behind = camera.projection == scene::Projection::perspective && glm::dot(away, camera.axes[2]) < -radius;
-    return cloud::levelOfDetail(glm::compMax(size), edgeOf(instance.voxelToMetres) / pixel / (behind ? unseen : 1.0));
+    const double voxel = edgeOf(instance.voxelToMetres) / pixel / (behind ? unseen : 1.0);  // pixels
+    const double across = voxel * glm::compMax(size);
+    const double rounded = std::pow(sameSize, std::ceil(std::log(std::max(across, 1.0)) / std::log(sameSize)));
+    return {cloud::levelOfDetail(glm::compMax(size), voxel), cloud::collectorsFor(rounded)};
 }
 
 double reducedExtinction(const phase::ScatteringMedium& medium, int bands) {
     const double forward = bands > 1 ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
     return medium.extinction * static_cast<double>(medium.tables.scatterFraction) * (1.0 - forward);
+}
+
+/// Makes the asset of a group, and gives it to its instances.
+void prepareGroup(gpu::Context& context, const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& placed,
+                  const Group& group, const WorldOptions& options, World& world, WorldReport& report) {
+    options.report("preparing the cloud", 0, 1);
+    const std::size_t first = group.instances.front();
+    const vdb::Volume coarse =
+        group.detail.level > 0 ? cloud::coarsened(*group.volume, group.detail.level) : vdb::Volume{};
+    const vdb::PlacedVolume field =
+        group.detail.level > 0 ? vdb::PlacedVolume(coarse, cloud::coarsened(placed[first].toWorld, group.detail.level))
+                               : placed[first];
+    const double thinner = static_cast<double>(field.volume->maximum) / static_cast<double>(group.volume->maximum);
+    cloud::PrepareOptions wanted;
+    wanted.preparation = scene.preparation;
+    wanted.majorant = scene.photonMap.majorant;
+    wanted.keepBlocks = placed.size() > 1;
+    const bool fewer = group.detail.collectors < scene.preparation.maxLeaves;
+    if (fewer) {
+        wanted.preparation.maxLeaves = group.detail.collectors;
+        wanted.preparation.samples = std::min(wanted.preparation.samples, samplesOfLeaf * group.detail.collectors);
+    }
+    // Leaves are split until they are optically thin. An asset knows its own size, so that what counts for an
+    // instance is its extinction times how much larger it is.
+    for (const std::size_t i : group.instances) {
+        cloud::Instance& instance = world.instances[i];
+        if (group.detail.level > 0) {
+            instance.medium.extinction *= thinner;
+            instance.voxelToMetres =
+                cloud::coarsened({instance.voxelToMetres, instance.origin}, group.detail.level).linear;
+        }
+        const double larger = i == first ? 1.0 : edgeOf(instance.voxelToMetres) / edgeOf(field.toWorld.linear);
+        wanted.reducedExtinction =
+            std::max(wanted.reducedExtinction, larger * reducedExtinction(instance.medium, scene.photonMap.bands));
+    }
+    world.assets.push_back(std::make_shared<const cloud::Asset>(cloud::prepare(context, field, wanted)));
+    const cloud::Asset* const asset = world.assets.back().get();
+    for (const std::size_t i : group.instances) world.instances[i].asset = asset;
+    if (asset->tree.limited && !fewer)
+        report.warnings.push_back("samples of the gradient asked for more than " +
+                                  std::to_string(scene.preparation.maxLeaves) +
+                                  " collectors: light is smeared in those that stay too large; raise "
+                                  "preparation.max_leaves or lower preparation.samples");
+    stopIfInterrupted();
+    options.report("preparing the cloud", 1, 1);
 }
 
 }  // namespace
@@ -110,65 +171,31 @@ void prepareAssets(gpu::Context& context, const scene::Scene& scene, const std::
                    const WorldOptions& options, World& world, WorldReport& report) {
     std::vector<Group> groups;
     MediumMaker media(scene);
-    const bool levels = scene.preparation.levelOfDetail && !options.keepRing && placed.size() > 1;
-    const Camera camera = makeCamera(scene.camera, scene.image, world.bounds);
+    std::vector<std::size_t> visible;
     for (std::size_t i = 0; i < placed.size(); ++i) {
         const vdb::Volume& volume = *placed[i].volume;
         if (volume.empty()) continue;
-        cloud::Instance& instance = world.instances[i];
-        instance.medium = media.make(scene.clouds[i], static_cast<double>(volume.maximum));
-        if (!(instance.medium.extinction > 0.0)) continue;
+        phase::ScatteringMedium& medium = world.instances[i].medium;
+        medium = media.make(scene.clouds[i], static_cast<double>(volume.maximum));
+        if (medium.extinction > 0.0) visible.push_back(i);
+    }
+    const bool levels = scene.preparation.levelOfDetail && !options.keepRing && visible.size() > 1;
+    world.levelsOfDetail = levels;
+    const Camera camera = makeCamera(scene.camera, scene.image, world.bounds);
+    for (const std::size_t i : visible) {
+        const vdb::Volume& volume = *placed[i].volume;
+        const cloud::Instance& instance = world.instances[i];
         const glm::dmat3 shape = shapeOf(instance.voxelToMetres);
-        const int level = levels ? levelFor(instance, volume.size, camera) : 0;
+        const Detail detail = levels ? detailFor(instance, volume.size, camera) : Detail{};
         const auto same = std::ranges::find_if(groups, [&](const Group& group) {
-            return group.volume == &volume && group.level == level && areAlike(group.shape, shape);
+            return group.volume == &volume && group.detail == detail && areAlike(group.shape, shape);
         });
         if (same == groups.end())
-            groups.push_back({&volume, shape, level, {i}});
+            groups.push_back({&volume, shape, detail, {i}});
         else
             same->instances.push_back(i);
     }
-    for (const Group& group : groups) {
-        options.report("preparing the cloud", 0, 1);
-        const std::size_t first = group.instances.front();
-        const vdb::Volume coarse = group.level > 0 ? cloud::coarsened(*group.volume, group.level) : vdb::Volume{};
-        const vdb::PlacedVolume field =
-            group.level > 0 ? vdb::PlacedVolume(coarse, cloud::coarsened(placed[first].toWorld, group.level))
-                            : placed[first];
-        const double thinner = static_cast<double>(field.volume->maximum) / static_cast<double>(group.volume->maximum);
-        cloud::PrepareOptions wanted;
-        wanted.preparation = scene.preparation;
-        wanted.majorant = scene.photonMap.majorant;
-        wanted.keepBlocks = placed.size() > 1;
-        if (group.level > 0) {
-            const int most = cloud::collectorsFor(glm::compMax(coarse.size));
-            wanted.preparation.maxLeaves = std::min(wanted.preparation.maxLeaves, most);
-            wanted.preparation.samples = std::min(wanted.preparation.samples, 16 * most);
-        }
-        // Leaves are split until they are optically thin. An asset knows its own size, so that what counts for an
-        // instance is its extinction times how much larger it is.
-        for (const std::size_t i : group.instances) {
-            cloud::Instance& instance = world.instances[i];
-            if (group.level > 0) {
-                instance.medium.extinction *= thinner;
-                instance.voxelToMetres =
-                    cloud::coarsened({instance.voxelToMetres, instance.origin}, group.level).linear;
-            }
-            const double larger = i == first ? 1.0 : edgeOf(instance.voxelToMetres) / edgeOf(field.toWorld.linear);
-            wanted.reducedExtinction =
-                std::max(wanted.reducedExtinction, larger * reducedExtinction(instance.medium, scene.photonMap.bands));
-        }
-        world.assets.push_back(std::make_shared<const cloud::Asset>(cloud::prepare(context, field, wanted)));
-        const cloud::Asset* const asset = world.assets.back().get();
-        for (const std::size_t i : group.instances) world.instances[i].asset = asset;
-        if (asset->tree.limited && group.level == 0)
-            report.warnings.push_back("samples of the gradient asked for more than " +
-                                      std::to_string(scene.preparation.maxLeaves) +
-                                      " collectors: light is smeared in those that stay too large; raise "
-                                      "preparation.max_leaves or lower preparation.samples");
-        stopIfInterrupted();
-        options.report("preparing the cloud", 1, 1);
-    }
+    for (const Group& group : groups) prepareGroup(context, scene, placed, group, options, world, report);
 }
 
 }  // namespace lumulus

@@ -38,6 +38,7 @@ inline Key other(Text name, Type type, Text fallback, Text documentation, Setter
 }
 
 /// Rows of other files.
+std::vector<Key> detailKeys();
 std::vector<Key> sunAndSkyKeys();
 
 }  // namespace lumulus::scene
