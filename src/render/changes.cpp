@@ -58,6 +58,7 @@ bool setExtinction(World& world, double extinction, std::optional<std::size_t> c
 
 void setOffset(World& world, const glm::dvec3& offset, std::optional<std::size_t> cloud) {
     for (const std::size_t i : meant(world, cloud)) world.instances[i].offset = offset;
+    placeInstances(world);
 }
 
 int shadowReduction(const World& world) {

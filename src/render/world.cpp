@@ -203,7 +203,7 @@ void Maker::makePhotonMap(const std::vector<std::size_t>& visible) {
     }
     if (visible.size() > 1) {
         world_.photons.emplace(context_, std::move(parts), *world_.sharedVolumes, options);
-        world_.photons->place(placements(world_, visible));
+        placeInstances(world_);
         return;
     }
     const photon::MapPart& only = parts.front();
@@ -269,6 +269,11 @@ void findReachingLight(World& world) {
     world.air = photon::makeAirLight(*atmosphere, &skyMapsOf(world), world.lights.sun, all);
 }
 
+void placeInstances(World& world) {
+    const std::vector<std::size_t> visible = world.visible();
+    if (world.photons && visible.size() > 1) world.photons->place(placements(world, visible));
+}
+
 bool traceAll(World& world, const CutOff& cutOff) {
     if (world.photons) {
         const std::vector<std::size_t> visible = world.visible();
@@ -277,7 +282,7 @@ bool traceAll(World& world, const CutOff& cutOff) {
         scene::Sun sun = world.lights.sun;
         const photon::AirLight* air = only.air ? &*only.air : nullptr;
         if (visible.size() > 1) {
-            world.photons->place(placements(world, visible));
+            placeInstances(world);
             air = world.air ? &*world.air : nullptr;
             if (air != nullptr) sun.irradiance *= air->mostSun;
         } else {

@@ -34,8 +34,9 @@ struct World {
     std::optional<photon::AirLight> air{};       ///< in all instances together, where several are in an atmosphere
     /// Where several instances are lit by the sun: shadow volumes with what stands before them.
     std::optional<light::SharedShadow> sharedShadow{};
-    Bounds bounds{};       ///< of all instances, without their offsets
-    glm::dvec3 wind{0.0};  ///< velocity with which all instances drift [m/s]
+    Bounds bounds{};              ///< of all instances, without their offsets
+    bool levelsOfDetail = false;  ///< whether instances have voxels chosen by their size in the picture
+    glm::dvec3 wind{0.0};         ///< velocity with which all instances drift [m/s]
     /// Densities on the host, of the assets that a question has needed them of.
     std::map<const cloud::Asset*, std::shared_ptr<const query::BrickField>> fields{};
 
@@ -71,6 +72,9 @@ World makeWorldBeside(gpu::Context& context, const scene::Scene& scene, const Wo
 
 /// Finds the light that reaches the instances, after the lights or the places of instances have changed.
 void findReachingLight(World& world);
+
+/// Tells the photon map of several clouds where they are now: after their places, extinctions or the sun have changed.
+void placeInstances(World& world);
 
 /// Traces a generation of photons through all clouds. Returns false where `cutOff` ended it: it does not count then.
 bool traceAll(World& world, const CutOff& cutOff);

@@ -18,6 +18,8 @@ namespace {
 constexpr double degrees = 3.14159265358979323846 / 180.0;
 /// Metrics of voxels that differ by less have the same shape: rounding of rotations.
 constexpr double sameShape = 1e-6;
+/// Samples of the gradient for each leaf that a tree may have.
+constexpr int samplesOfLeaf = 16;
 /// Clouds out of the picture are as if they were so many times smaller.
 constexpr double unseen = 4.0;
 
@@ -71,53 +73,110 @@ class MediumMaker {
     std::vector<Known> known_;
 };
 
+/// Detail that an instance needs: a level, and collectors, which are the same for clouds of nearly one size.
+struct Detail {
+    int level = 0;
+    int collectors = std::numeric_limits<int>::max();
+
+    bool operator==(const Detail&) const = default;
+};
+
 /// Instances that share an asset.
 struct Group {
     const vdb::Volume* volume;
     glm::dmat3 shape;
-    int level;
-    double pixels;  ///< of its largest instance, along the longest side
+    Detail detail;
     std::vector<std::size_t> instances;
 };
 
-/// Pixels that a voxel of an instance takes at its nearest point to the camera; infinite within it.
-double voxelPixels(const cloud::Instance& instance, const glm::ivec3& size, const Camera& camera) {
+/// Sizes in the picture [pixels] that take the same number of collectors differ by this factor at most.
+constexpr double sameSize = 1.5;
+
+Detail detailFor(const cloud::Instance& instance, const glm::ivec3& size, const Camera& camera) {
     const glm::dvec3 middle = instance.toWorld(0.5 * glm::dvec3(size));
     const double radius = 0.5 * glm::length(instance.voxelToMetres * glm::dvec3(size));
     const glm::dvec3 away = middle - camera.position;
     const double distance = glm::length(away);
-    if (distance <= 1.5 * radius) return std::numeric_limits<double>::infinity();
+    if (distance <= 1.5 * radius) return {};
     // pixels of a perspective grow with the depth, the smallest on the axis
     const double pixel = frame::pixelLength(camera, camera.position + (distance - radius) * camera.axes[2]);
     const bool behind = camera.projection == scene::Projection::perspective && glm::dot(away, camera.axes[2]) < -radius;
-    return edgeOf(instance.voxelToMetres) / pixel / (behind ? unseen : 1.0);
-}
-
-/// Collectors that each instance of a group may have: by its size in the picture, and all together as many as the
-/// photon map has room for. A single cloud has what the scene asks for.
-std::vector<int> shareOutCollectors(const std::vector<Group>& groups, std::uint64_t room, int most) {
-    std::vector<int> shares;
-    double wanted = 0.0;
-    for (const Group& group : groups) {
-        shares.push_back(std::isfinite(group.pixels) ? std::min(most, cloud::collectorsFor(group.pixels)) : most);
-        wanted += static_cast<double>(group.instances.size()) * shares.back();
-    }
-    constexpr int fewest = 30;
-    const double factor = std::min(1.0, static_cast<double>(room) / std::max(wanted, 1.0));
-    for (int& share : shares) share = std::clamp(static_cast<int>(factor * share), std::min(fewest, most), most);
-    return shares;
-}
-
-/// Collectors that the scene's photon map has room for.
-std::uint64_t roomForCollectors(const gpu::Context& context, const scene::PhotonMap& map, const WorldOptions& options) {
-    const photon::MapSize size{0, map.bands, map.generations, options.keepRing, options.progressive, 0};
-    return photon::mostCollectors(size, static_cast<std::uint64_t>(std::ldexp(map.memoryBudget, 20)),
-                                  context.limits().maxStorageBufferRange);
+    const double voxel = edgeOf(instance.voxelToMetres) / pixel / (behind ? unseen : 1.0);  // pixels
+    const double across = voxel * glm::compMax(size);
+    const double rounded = std::pow(sameSize, std::ceil(std::log(std::max(across, 1.0)) / std::log(sameSize)));
+    return {cloud::levelOfDetail(glm::compMax(size), voxel), cloud::collectorsFor(rounded)};
 }
 
 double reducedExtinction(const phase::ScatteringMedium& medium, int bands) {
     const double forward = bands > 1 ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
     return medium.extinction * static_cast<double>(medium.tables.scatterFraction) * (1.0 - forward);
+}
+
+/// Lowers the collectors of several clouds to what the scene's photon map has room for.
+void fitCollectors(const gpu::Context& context, const scene::Scene& scene, const WorldOptions& options,
+                   std::vector<Group>& groups) {
+    constexpr int fewest = 30;
+    const scene::PhotonMap& map = scene.photonMap;
+    const photon::MapSize size{0, map.bands, map.generations, options.keepRing, options.progressive, 0};
+    const auto room = static_cast<double>(photon::mostCollectors(
+        size, static_cast<std::uint64_t>(std::ldexp(map.memoryBudget, 20)), context.limits().maxStorageBufferRange));
+    double wanted = 0.0;
+    for (Group& group : groups) {
+        group.detail.collectors = std::min(group.detail.collectors, scene.preparation.maxLeaves);
+        wanted += static_cast<double>(group.instances.size()) * group.detail.collectors;
+    }
+    if (wanted <= room) return;
+    for (Group& group : groups)
+        group.detail.collectors = std::max(std::min(fewest, group.detail.collectors),
+                                           static_cast<int>(room / wanted * group.detail.collectors));
+}
+
+/// Makes the asset of a group, and gives it to its instances.
+void prepareGroup(gpu::Context& context, const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& placed,
+                  const std::shared_ptr<const gpu::Image>& pool, const Group& group, const WorldOptions& options,
+                  World& world, WorldReport& report) {
+    options.report("preparing the cloud", 0, 1);
+    const std::size_t first = group.instances.front();
+    const vdb::Volume coarse =
+        group.detail.level > 0 ? cloud::coarsened(*group.volume, group.detail.level) : vdb::Volume{};
+    const vdb::PlacedVolume field =
+        group.detail.level > 0 ? vdb::PlacedVolume(coarse, cloud::coarsened(placed[first].toWorld, group.detail.level))
+                               : placed[first];
+    const double thinner = static_cast<double>(field.volume->maximum) / static_cast<double>(group.volume->maximum);
+    cloud::PrepareOptions wanted;
+    wanted.preparation = scene.preparation;
+    wanted.majorant = scene.photonMap.majorant;
+    wanted.keepBlocks = placed.size() > 1;
+    const bool fewer = group.detail.collectors < scene.preparation.maxLeaves;
+    if (fewer) {
+        wanted.preparation.maxLeaves = group.detail.collectors;
+        wanted.preparation.samples = std::min(wanted.preparation.samples, samplesOfLeaf * group.detail.collectors);
+    }
+    // Leaves are split until they are optically thin. An asset knows its own size, so that what counts for an
+    // instance is its extinction times how much larger it is.
+    for (const std::size_t i : group.instances) {
+        cloud::Instance& instance = world.instances[i];
+        if (group.detail.level > 0) {
+            instance.medium.extinction *= thinner;
+            instance.voxelToMetres =
+                cloud::coarsened({instance.voxelToMetres, instance.origin}, group.detail.level).linear;
+        }
+        const double larger = i == first ? 1.0 : edgeOf(instance.voxelToMetres) / edgeOf(field.toWorld.linear);
+        wanted.reducedExtinction =
+            std::max(wanted.reducedExtinction, larger * reducedExtinction(instance.medium, scene.photonMap.bands));
+    }
+    world.assets.push_back(std::make_shared<const cloud::Asset>(
+        pool ? cloud::prepareBricks(context, *field.bricks, field.toWorld, pool, wanted)
+             : cloud::prepare(context, field, wanted)));
+    const cloud::Asset* const asset = world.assets.back().get();
+    for (const std::size_t i : group.instances) world.instances[i].asset = asset;
+    if (asset->tree.limited && !fewer)
+        report.warnings.push_back("samples of the gradient asked for more than " +
+                                  std::to_string(scene.preparation.maxLeaves) +
+                                  " collectors: light is smeared in those that stay too large; raise "
+                                  "preparation.max_leaves or lower preparation.samples");
+    stopIfInterrupted();
+    options.report("preparing the cloud", 1, 1);
 }
 
 }  // namespace
@@ -145,75 +204,33 @@ void prepareAssets(gpu::Context& context, const scene::Scene& scene, const std::
                    WorldReport& report) {
     std::vector<Group> groups;
     MediumMaker media(scene);
-    // bricks have levels of their own, which are chosen where they are laid out
-    const bool levels = scene.preparation.levelOfDetail && !options.keepRing && placed.size() > 1 && !pool;
-    const Camera camera = makeCamera(scene.camera, scene.image, world.bounds);
+    std::vector<std::size_t> visible;
     for (std::size_t i = 0; i < placed.size(); ++i) {
         const vdb::Volume& volume = *placed[i].volume;
         if (volume.empty()) continue;
-        cloud::Instance& instance = world.instances[i];
-        instance.medium = media.make(scene.clouds[i], static_cast<double>(volume.maximum));
-        if (!(instance.medium.extinction > 0.0)) continue;
+        phase::ScatteringMedium& medium = world.instances[i].medium;
+        medium = media.make(scene.clouds[i], static_cast<double>(volume.maximum));
+        if (medium.extinction > 0.0) visible.push_back(i);
+    }
+    const bool levels = scene.preparation.levelOfDetail && !options.keepRing && visible.size() > 1;
+    world.levelsOfDetail = levels;
+    const Camera camera = makeCamera(scene.camera, scene.image, world.bounds);
+    for (const std::size_t i : visible) {
+        const vdb::Volume& volume = *placed[i].volume;
+        const cloud::Instance& instance = world.instances[i];
         const glm::dmat3 shape = shapeOf(instance.voxelToMetres);
-        const double pixels =
-            levels ? voxelPixels(instance, volume.size, camera) : std::numeric_limits<double>::infinity();
-        const int longest = glm::compMax(volume.size);
-        const int level = levels && std::isfinite(pixels) ? cloud::levelOfDetail(longest, pixels) : 0;
+        Detail detail = levels ? detailFor(instance, volume.size, camera) : Detail{};
+        if (pool) detail.level = 0;  // bricks have levels of their own, which are chosen where they are laid out
         const auto same = std::ranges::find_if(groups, [&](const Group& group) {
-            return group.volume == &volume && group.level == level && areAlike(group.shape, shape);
+            return group.volume == &volume && group.detail == detail && areAlike(group.shape, shape);
         });
-        if (same == groups.end()) {
-            groups.push_back({&volume, shape, level, longest * pixels, {i}});
-        } else {
+        if (same == groups.end())
+            groups.push_back({&volume, shape, detail, {i}});
+        else
             same->instances.push_back(i);
-            same->pixels = std::max(same->pixels, longest * pixels);
-        }
     }
-    const int most = scene.preparation.maxLeaves;
-    const std::vector<int> shares =
-        placed.size() > 1 ? shareOutCollectors(groups, roomForCollectors(context, scene.photonMap, options), most)
-                          : std::vector<int>(groups.size(), most);
-    for (std::size_t number = 0; number < groups.size(); ++number) {
-        const Group& group = groups[number];
-        options.report("preparing the cloud", 0, 1);
-        const std::size_t first = group.instances.front();
-        const vdb::Volume coarse = group.level > 0 ? cloud::coarsened(*group.volume, group.level) : vdb::Volume{};
-        const vdb::PlacedVolume field =
-            group.level > 0 ? vdb::PlacedVolume(coarse, cloud::coarsened(placed[first].toWorld, group.level))
-                            : placed[first];
-        const double thinner = static_cast<double>(field.volume->maximum) / static_cast<double>(group.volume->maximum);
-        cloud::PrepareOptions wanted;
-        wanted.preparation = scene.preparation;
-        wanted.majorant = scene.photonMap.majorant;
-        wanted.keepBlocks = placed.size() > 1;
-        wanted.preparation.maxLeaves = shares[number];
-        if (placed.size() > 1) wanted.preparation.samples = std::min(wanted.preparation.samples, 16 * shares[number]);
-        // Leaves are split until they are optically thin. An asset knows its own size, so that what counts for an
-        // instance is its extinction times how much larger it is.
-        for (const std::size_t i : group.instances) {
-            cloud::Instance& instance = world.instances[i];
-            if (group.level > 0) {
-                instance.medium.extinction *= thinner;
-                instance.voxelToMetres =
-                    cloud::coarsened({instance.voxelToMetres, instance.origin}, group.level).linear;
-            }
-            const double larger = i == first ? 1.0 : edgeOf(instance.voxelToMetres) / edgeOf(field.toWorld.linear);
-            wanted.reducedExtinction =
-                std::max(wanted.reducedExtinction, larger * reducedExtinction(instance.medium, scene.photonMap.bands));
-        }
-        world.assets.push_back(std::make_shared<const cloud::Asset>(
-            pool ? cloud::prepareBricks(context, *field.bricks, field.toWorld, pool, wanted)
-                 : cloud::prepare(context, field, wanted)));
-        const cloud::Asset* const asset = world.assets.back().get();
-        for (const std::size_t i : group.instances) world.instances[i].asset = asset;
-        if (asset->tree.limited && shares[number] == most)
-            report.warnings.push_back("samples of the gradient asked for more than " +
-                                      std::to_string(scene.preparation.maxLeaves) +
-                                      " collectors: light is smeared in those that stay too large; raise "
-                                      "preparation.max_leaves or lower preparation.samples");
-        stopIfInterrupted();
-        options.report("preparing the cloud", 1, 1);
-    }
+    if (visible.size() > 1) fitCollectors(context, scene, options, groups);
+    for (const Group& group : groups) prepareGroup(context, scene, placed, pool, group, options, world, report);
 }
 
 }  // namespace lumulus

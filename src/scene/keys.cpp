@@ -285,7 +285,7 @@ const std::vector<Key>& schema() {
     static const std::vector<Key> all = [] {
         std::vector<Key> keys;
         for (const auto& part : {imageAndCameraKeys(), timeKeys(), sunAndSkyKeys(), atmosphereKeys(), groundKeys(),
-                                 cloudKeys(), phaseKeys(), fieldKeys(), preparationKeys(), storageKeys(),
+                                 cloudKeys(), phaseKeys(), fieldKeys(), preparationKeys(), storageKeys(), detailKeys(),
                                  photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys()}) {
             keys.insert(keys.end(), part.begin(), part.end());
         }

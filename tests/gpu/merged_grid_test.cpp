@@ -1,4 +1,5 @@
-// The grid of several clouds: majorants bound the sum of densities everywhere, lists name all clouds, empty space is empty.
+// The grid of several clouds: majorants bound the sum of densities everywhere, lists name all clouds, empty space is
+// empty.
 #include "cloud/merged_grid.h"
 
 #include <gtest/gtest.h>
@@ -57,7 +58,8 @@ TEST_F(MergedGridTest, BoundsAllCloudsAndLeavesNothingOut) {
     int shared = 0;
     for (int i = 0; i < 60'000; ++i) {
         // points of a sequence that fills space evenly
-        const dvec3 at = lower + (upper - lower) * glm::fract(dvec3(i) * dvec3(0.7548776662, 0.5698402910, 0.4301597090));
+        const dvec3 at =
+            lower + (upper - lower) * glm::fract(dvec3(i) * dvec3(0.7548776662, 0.5698402910, 0.4301597090));
         const ivec3 cell = glm::min(ivec3((at - grid.origin) / grid.edge), cells - 1);
         const Found found = cellAt(grid, cell);
         double sum = 0.0;

@@ -32,7 +32,8 @@ TEST(EntryDiscs, ASphereShowsACircle) {
 
 /// A flat one shows its face from above, and the area that shaders compute is that of every direction.
 TEST(EntryDiscs, AreaFollowsTheDirection) {
-    const PlacedEllipsoid flat{glm::dmat3(dvec3(5.0, 0, 0), dvec3(0, 1.0, 0), dvec3(0, 0, 4.0)), dvec3(10.0, 20.0, 30.0)};
+    const PlacedEllipsoid flat{glm::dmat3(dvec3(5.0, 0, 0), dvec3(0, 1.0, 0), dvec3(0, 0, 4.0)),
+                               dvec3(10.0, 20.0, 30.0)};
     const std::vector<double> shares{1.0};
     const shared::EntryDisc disc = entryDiscs(std::vector{flat}, shares, dvec3(10.0, 0.0, 0.0)).front();
     const auto area = [&](const glm::vec3& direction) {
