@@ -39,6 +39,7 @@ inline Key other(Text name, Type type, Text fallback, Text documentation, Setter
 
 /// Rows of other files.
 std::vector<Key> groundKeys();
+std::vector<Key> mapKeys();
 std::vector<Key> sunAndSkyKeys();
 std::vector<Key> atmosphereKeys();
 

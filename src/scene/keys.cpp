@@ -284,8 +284,8 @@ const std::vector<Key>& schema() {
     static const std::vector<Key> all = [] {
         std::vector<Key> keys;
         for (const auto& part :
-             {imageAndCameraKeys(), sunAndSkyKeys(), atmosphereKeys(), groundKeys(), cloudKeys(), phaseKeys(),
-              preparationKeys(), photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys()}) {
+             {imageAndCameraKeys(), sunAndSkyKeys(), atmosphereKeys(), mapKeys(), groundKeys(), cloudKeys(),
+              phaseKeys(), preparationKeys(), photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys()}) {
             keys.insert(keys.end(), part.begin(), part.end());
         }
         return keys;
