@@ -13,7 +13,7 @@ const int SKY_MAP_ROWS = 32;
 const int SUN_COLOUR_COLUMNS = 8;
 const int SUN_COLOUR_ROWS = 32;
 
-/// A cell of an alias table, and what a photon from it weighs for each m² that the cloud's box turns to it.
+/// A cell of an alias table, and what a photon from it weighs for each m² that it sees of the cloud's box.
 struct SkyCell {
     float keep;   // probability that the cell itself is meant, and not `other`
     uint other;

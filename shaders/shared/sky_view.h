@@ -16,9 +16,9 @@ SHARED_BEGIN
 
 /// Columns from the sun's azimuth to that opposite to it; rows from the horizon to the zenith, denser at the horizon;
 /// then rows of the ground, from the point below the eye to the horizon.
-const int SKY_COLUMNS = 192;
-const int SKY_ROWS = 108;
-const int GROUND_ROWS = 64;
+const int SKY_COLUMNS = 64;
+const int SKY_ROWS = 96;
+const int GROUND_ROWS = 32;
 
 /// Texels of the air between the eye and clouds: across and down the picture, and along the ray.
 const int AIR_SLICES = 32;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "sky/path_steps.h"
 #include "sky/shell.h"
 #include "sky/sun_reach.h"
 
@@ -58,45 +57,44 @@ Spectrum Atmosphere::groundRadiance(double sun) const {
     return air_.groundAlbedo / pi * (direct + multiple_.groundIrradiance(sun));
 }
 
-void Atmosphere::add(AirLight& light, const AirPoint& from, double length, int steps) const {
-    const PathSteps path(length, -(planetRadius + from.height) * from.up, steps);
-    const double molecules = moleculePhase(from.toSun);
-    for (int i = 0; i < steps; ++i) {
-        const AirPoint p = from.after(path.middle(i));
-        const AirDensity density = airDensity(p.height);
-        const Spectrum extinction = air_.extinction(density), through = glm::exp(-extinction * path.length(i));
-        const Spectrum weight = light.transmittance * (1.0 - through) / glm::max(extinction, Spectrum(1e-30));
-        const Spectrum sun = sunTransmittance(p.height, p.sun);
-        light.scattered +=
-            weight * (multiple_.source(p, density) + molecules * density.molecules * air_.molecules * sun);
-        light.aerosol += weight * sun * density.aerosol * air_.aerosolScattering;
-        light.transmittance *= through;
+AirPath Atmosphere::path(double height, double up, int steps) const {
+    return makeAirPath(air_, height, up, distanceToGround(height, up), steps);
+}
+
+AirLight Atmosphere::along(const AirPoint& from, const AirPath& path) const {
+    AirLight light;
+    light.transmittance = path.transmittance;
+    const Spectrum molecules = moleculePhase(from.toSun) * air_.molecules;
+    for (const AirStep& step : path.steps) {
+        const AirPoint p = pointOf(from, step);
+        const Spectrum sun = sunTransmittance(p.height, p.sun) * step.weight;
+        light.scattered += step.weight * multiple_.source(p, step.density) + step.density.molecules * molecules * sun;
+        light.aerosol += step.density.aerosol * sun;
     }
+    light.aerosol *= air_.aerosolScattering;
+    return light;
 }
 
 AirLight Atmosphere::along(const AirPoint& from, double length, int steps) const {
-    AirLight light;
-    extend(light, from, length, steps);
-    return light;
+    return along(from, makeAirPath(air_, from.height, from.up, length, steps));
 }
 
-void Atmosphere::extend(AirLight& light, const AirPoint& from, double length, int steps) const {
-    AirPoint inside = from;
-    if (from.height > airTop) {
-        const double entry = distanceToAir(from.height, from.up);
-        if (!(entry < length)) return;
-        inside = from.after(entry);
-        inside.height = std::min(inside.height, airTop);
-        length -= entry;
-    }
-    add(light, inside, std::min(length, distanceToTop(inside.height, inside.up)), steps);
+AirLight Atmosphere::sky(const AirPoint& from, const AirPath& path) const {
+    AirLight light = along(from, path);
+    const double ground = distanceToGround(from.height, from.up);
+    if (std::isfinite(ground)) light.scattered += light.transmittance * groundRadiance(from.after(ground).sun);
+    return light;
 }
 
 AirLight Atmosphere::sky(const AirPoint& from, int steps) const {
-    const double ground = distanceToGround(from.height, from.up);
-    AirLight light = along(from, ground, steps);
-    if (std::isfinite(ground)) light.scattered += light.transmittance * groundRadiance(from.after(ground).sun);
-    return light;
+    return sky(from, path(from.height, from.up, steps));
+}
+
+void Atmosphere::extend(AirLight& light, const AirPoint& from, double length, int steps) const {
+    const AirLight more = along(from, length, steps);
+    light.scattered += light.transmittance * more.scattered;
+    light.aerosol += light.transmittance * more.aerosol;
+    light.transmittance *= more.transmittance;
 }
 
 glm::dvec3 Atmosphere::radiance(const glm::dvec3& point, const glm::dvec3& direction, const glm::dvec3& toSun) const {

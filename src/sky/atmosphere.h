@@ -5,6 +5,7 @@
 
 #include "scene/scene.h"
 #include "sky/air.h"
+#include "sky/air_path.h"
 #include "sky/multiple_scattering.h"
 #include "sky/optical_depth.h"
 
@@ -63,6 +64,9 @@ class Atmosphere {
 
     /// Light of the whole ray: to the ground, with what that reflects, or to space.
     AirLight sky(const AirPoint& from, int steps = 48) const;
+    /// The same with the path of path(), which is the same for all rays of a height and a cosine.
+    AirLight sky(const AirPoint& from, const AirPath& path) const;
+    AirPath path(double height, double up, int steps) const;
     /// Light of the first `length` metres, that lie above the ground.
     AirLight along(const AirPoint& from, double length, int steps = 32) const;
     /// Lengthens a path that ends at `from` by `length` metres.
@@ -79,7 +83,7 @@ class Atmosphere {
     double discRadius() const { return discRadius_; }
 
   private:
-    void add(AirLight& light, const AirPoint& from, double length, int steps) const;
+    AirLight along(const AirPoint& from, const AirPath& path) const;
 
     double discRadius_, groundHeight_;
     Air air_;

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "sky/path_steps.h"
+#include "sky/air_path.h"
 #include "sky/shell.h"
 #include "sky/sun_reach.h"
 
@@ -23,6 +23,7 @@ constexpr int sunTexels = MultipleScattering::sunTexels, heightTexels = Multiple
 constexpr int texels = sunTexels * heightTexels;
 constexpr double lowestSun = -0.5;  // of the root of the cosine: 14.5° below the horizon
 constexpr int polar = 4, azimuths = 4, directions = 2 * polar * azimuths, steps = 20, mostOrders = 30;
+constexpr double smallOrder = 0.005;  // what follows an order of this share is taken for a geometric series
 
 /// Gauss's rule in [0,1].
 constexpr std::array<double, polar> nodes{0.069431844202973712, 0.33000947820757187, 0.66999052179242813,
@@ -124,11 +125,19 @@ class ScatteringOrders {
         : air_(air),
           columns_(columns),
           discRadius_(discRadius),
+          paths_(static_cast<std::size_t>(heightTexels) * 2 * polar),
           rays_(static_cast<std::size_t>(texels) * directions),
           coefficients_(texels),
           irradiance_{} {
         const auto moments = air.aerosolMoments();
         moments_ = {static_cast<float>(moments[1]), static_cast<float>(moments[2])};
+        tbb::parallel_for(std::size_t{0}, paths_.size(), [&](std::size_t i) {
+            double solidAngle = 0.0;
+            const auto texel = static_cast<int>(i / (2 * polar)) * sunTexels;
+            const AirPoint from = start(texel, static_cast<int>(i % (2 * polar)) * azimuths, solidAngle);
+            const double length = distanceToGround(from.height, from.up);
+            paths_[i] = makeAirPath(air_, from.height, from.up, length, steps);
+        });
         tbb::parallel_for(0, texels, [&](int texel) { firstOrder(texel); });
     }
 
@@ -150,7 +159,7 @@ class ScatteringOrders {
     AirPoint start(int texel, int direction, double& solidAngle) const;
     void firstOrder(int texel);
     double aerosolSum(int texel) const;
-    Spectrum prepare(const AirPoint& from, double aerosolPhase, Ray& ray) const;
+    Spectrum prepare(const AirPoint& from, const AirPath& path, double aerosolPhase, Ray& ray) const;
     Spectrum radiance(const Ray& ray, const std::vector<Incident>& incident) const;
     Spectrum irradianceAt(float texel) const;
     void add(int texel, const AirPoint& from, double solidAngle, const Spectrum& radiance);
@@ -160,6 +169,7 @@ class ScatteringOrders {
     const ColumnTable& columns_;
     double discRadius_;
     glm::vec2 moments_;
+    std::vector<AirPath> paths_;  // by height and polar angle
     std::vector<Ray> rays_;
     std::vector<Coefficients> coefficients_;               // of one order
     std::array<Spectrum, sunTexels> irradiance_, before_;  // of the sky on the ground; of the order before
@@ -183,32 +193,26 @@ AirPoint ScatteringOrders::start(int texel, int direction, double& solidAngle) c
 }
 
 /// Finds the steps of a ray and the light that reaches its beginning after one scattering or reflection.
-Spectrum ScatteringOrders::prepare(const AirPoint& from, double aerosol, Ray& ray) const {
-    const double ground = distanceToGround(from.height, from.up);
-    const double length = std::isfinite(ground) ? ground : distanceToTop(from.height, from.up);
-    const PathSteps path(length, -(planetRadius + from.height) * from.up, steps);
-    Spectrum passed(1.0), light(0.0);
+Spectrum ScatteringOrders::prepare(const AirPoint& from, const AirPath& path, double aerosol, Ray& ray) const {
+    Spectrum light(0.0);
     const double molecules = moleculePhase(from.toSun);
-    for (int i = 0; i < steps; ++i) {
-        const AirPoint p = from.after(path.middle(i));
-        const AirDensity density = airDensity(p.height);
-        const Spectrum extinction = air_.extinction(density), through = glm::exp(-extinction * path.length(i));
-        const Spectrum weight = passed * (1.0 - through) / glm::max(extinction, Spectrum(1e-30));
-        const Spectrum byMolecules = density.molecules * air_.molecules * weight;
-        const Spectrum byAerosol = density.aerosol * air_.aerosolScattering * weight;
+    for (std::size_t i = 0; i < steps; ++i) {
+        const AirStep& step = path.steps[i];
+        const AirPoint p = pointOf(from, step);
+        const Spectrum byMolecules = step.density.molecules * air_.molecules * step.weight;
+        const Spectrum byAerosol = step.density.aerosol * air_.aerosolScattering * step.weight;
         light += sunTransmittance(air_, columns_, p.height, p.sun, discRadius_) *
                  (molecules * byMolecules + aerosol * byAerosol);
         const double lit = fade(p.sun);
-        ray.step[static_cast<std::size_t>(i)] = {cellOf(p.height, p.sun), basisOf(p), vec4(lit * byMolecules),
-                                                 vec4(lit * byAerosol)};
-        passed *= through;
+        ray.step[i] = {cellOf(p.height, p.sun), basisOf(p), vec4(lit * byMolecules), vec4(lit * byAerosol)};
     }
+    const double ground = distanceToGround(from.height, from.up);
     if (std::isfinite(ground)) {
         const AirPoint p = from.after(ground);
-        ray.ground = vec4(passed * air_.groundAlbedo / pi * fade(p.sun));
+        ray.ground = vec4(path.transmittance * air_.groundAlbedo / pi * fade(p.sun));
         const Cell cell = cellOf(0.0, p.sun);
         ray.sun = static_cast<float>(cell.first % sunTexels) + cell.sun;
-        light += passed * air_.groundAlbedo / pi * std::max(0.0, p.sun) *
+        light += path.transmittance * air_.groundAlbedo / pi * std::max(0.0, p.sun) *
                  sunTransmittance(air_, columns_, 0.0, p.sun, discRadius_);
     }
     return light;
@@ -236,11 +240,13 @@ double ScatteringOrders::aerosolSum(int texel) const {
 
 void ScatteringOrders::firstOrder(int texel) {
     const double sum = aerosolSum(texel);
+    const auto height = static_cast<std::size_t>(texel / sunTexels);
     for (int direction = 0; direction < directions; ++direction) {
         double solidAngle = 0.0;
         const AirPoint from = start(texel, direction, solidAngle);
         Ray& ray = rays_[static_cast<std::size_t>(texel) * directions + static_cast<std::size_t>(direction)];
-        add(texel, from, solidAngle, prepare(from, air_.aerosolPhase(from.toSun) / sum, ray));
+        const AirPath& path = paths_[height * 2 * polar + static_cast<std::size_t>(direction / azimuths)];
+        add(texel, from, solidAngle, prepare(from, path, air_.aerosolPhase(from.toSun) / sum, ray));
     }
 }
 
@@ -273,7 +279,7 @@ void ScatteringOrders::nextOrder(int texel, const std::vector<Incident>& inciden
 void ScatteringOrders::run(MultipleScattering& result) {
     std::vector<Coefficients> all(texels, Coefficients{});
     std::vector<Incident> incident(texels);
-    Spectrum first(0.0);
+    Spectrum before(0.0), tail(0.0);
     for (result.orders_ = 1;; ++result.orders_) {
         Spectrum order(0.0), sum(0.0);
         for (std::size_t i = 0; i < texels; ++i) {
@@ -284,13 +290,22 @@ void ScatteringOrders::run(MultipleScattering& result) {
         }
         for (std::size_t i = 0; i < sunTexels; ++i) result.irradiance_[i] += irradiance_[i];
         const Spectrum share = order / glm::max(sum, Spectrum(1e-30));
-        if (std::max({share.x, share.y, share.z, share.w}) < 1e-3 || result.orders_ == mostOrders) break;
+        if (std::max({share.x, share.y, share.z, share.w}) < smallOrder || result.orders_ == mostOrders) {
+            // the orders that follow, each of which has about this share of the one before
+            tail = order / glm::max(before - order, Spectrum(1e-30));
+            break;
+        }
+        before = order;
         before_ = irradiance_;
         irradiance_ = {};
         std::fill(coefficients_.begin(), coefficients_.end(), Coefficients{});
         tbb::parallel_for(0, texels, [&](int texel) { nextOrder(texel, incident); });
     }
-    for (std::size_t i = 0; i < texels; ++i) incident[i] = incidentOf(all[i]);
+    for (std::size_t i = 0; i < sunTexels; ++i) result.irradiance_[i] += tail * irradiance_[i];
+    for (std::size_t i = 0; i < texels; ++i) {
+        for (std::size_t k = 0; k < 6; ++k) all[i][k] += tail * coefficients_[i][k];
+        incident[i] = incidentOf(all[i]);
+    }
     result.incident_ = std::move(incident);
 }
 

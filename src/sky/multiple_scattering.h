@@ -23,7 +23,8 @@ struct AirPoint {
 /// harmonics of degree 2 in the frame of the upward direction and the sun, by height and by the sun's cosine.
 class MultipleScattering {
   public:
-    /// Iterates order by order until one adds less than 0.001. `discRadius`: of the sun, radians.
+    /// Iterates order by order until one adds less than 0.005; those that follow are summed as a geometric series.
+    /// `discRadius`: of the sun, radians.
     MultipleScattering(const Air& air, const ColumnTable& columns, double discRadius);
 
     /// Radiance per metre that light which has scattered already adds to a ray.

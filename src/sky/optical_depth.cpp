@@ -19,7 +19,7 @@ const double topDistance = std::sqrt(airTop * (2.0 * planetRadius + airTop));  /
 glm::dvec3 upwards(double height, double up) {
     constexpr std::array<double, 3> places{0.11270166537925831, 0.5, 0.88729833462074169};
     constexpr std::array<double, 3> weights{5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-    constexpr int panels = 32;
+    constexpr int panels = 24;
     const double length = distanceToTop(height, up);
     glm::dvec3 sum(0.0);
     for (int panel = 0; panel < panels; ++panel)

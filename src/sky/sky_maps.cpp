@@ -35,11 +35,13 @@ SkyMaps::SkyMaps(const Atmosphere& atmosphere, const glm::dvec3& place, const sc
     tbb::parallel_for(0, static_cast<int>(heights.size()) * rows, [&](int index) {
         const auto level = static_cast<std::size_t>(index / rows);
         const int row = index % rows;
+        const double cosine = glm::dot(direction(row * columns, {0.5, 0.5}), up);
+        const AirPath path = atmosphere.path(heights[level], cosine, steps);
         for (int column = 0; column < columns / 2; ++column) {
             const glm::dvec3 towards = direction(row * columns + column, {0.5, 0.5});
-            const AirPoint from{heights[level], glm::dot(towards, up), sunUp, glm::dot(towards, sun.directionTo)};
+            const AirPoint from{heights[level], cosine, sunUp, glm::dot(towards, sun.directionTo)};
             const glm::dvec3 light =
-                atmosphere.air().rgb(atmosphere.sky(from, steps).light(atmosphere.air(), from.toSun));
+                atmosphere.air().rgb(atmosphere.sky(from, path).light(atmosphere.air(), from.toSun));
             const glm::dvec3 seen = glm::max(light, glm::dvec3(0.0)) * scale;
             // the sky is the same to both sides of the sun
             radiance_[level][static_cast<std::size_t>(row * columns + column)] = seen;

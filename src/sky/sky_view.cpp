@@ -17,7 +17,7 @@ using std::numbers::pi;
 
 /// The eye's least height: closer to the ground than this nothing changes but the formulas' digits.
 constexpr double leastHeight = 0.5;
-constexpr int steps = 40;
+constexpr int steps = 32;
 
 glm::vec4 texel(const glm::dvec3& rgb) {
     return {glm::vec3(rgb), 1.0F};
@@ -70,9 +70,10 @@ SkyView makeSkyView(const Atmosphere& atmosphere, const glm::dvec3& eye, const s
     view.aerosol.resize(view.scattered.size());
     tbb::parallel_for(0, rows, [&](int row) {
         const double cosine = cosineOfRow(p, height, horizonDistance, row), sine = std::sqrt(1.0 - cosine * cosine);
+        const AirPath path = atmosphere.path(height, cosine, steps);
         for (int column = 0; column < columns; ++column) {
             const double toSun = cosine * sunUp + sine * sunSine * std::cos(pi * column / (columns - 1.0));
-            const AirLight light = atmosphere.sky({height, cosine, sunUp, std::clamp(toSun, -1.0, 1.0)}, steps);
+            const AirLight light = atmosphere.sky({height, cosine, sunUp, std::clamp(toSun, -1.0, 1.0)}, path);
             const auto at = static_cast<std::size_t>(row * columns + column);
             view.scattered[at] = texel(atmosphere.air().rgb(light.scattered) * scale);
             view.aerosol[at] = texel(atmosphere.air().rgb(light.aerosol) * scale);

@@ -102,6 +102,32 @@ TEST(RendererAtmosphere, ScalesWithTheSun) {
             ASSERT_EQ(twice.image.layers.at(name)[i], 2.0F * once.image.layers.at(name)[i]) << name << " " << i;
 }
 
+/// A sun that rises while the renderer lives: what follows is the picture of that sun, as a service shows it.
+TEST(RendererAtmosphere, TheSunMayRise) {
+    const auto lightOf = [](Renderer& renderer) {
+        for (int i = 0; i < renderer.generationsWanted(); ++i) renderer.traceGeneration();
+        const LayeredImage image = renderer.draw();
+        double sum = 0.0;
+        for (const float value : image.layers.at("cloud.G")) sum += static_cast<double>(value);
+        return sum;
+    };
+    RendererOptions options;
+    options.validation = true;
+    options.keepRing = true;
+    scene::Scene scene = sceneUnder(-4.0);
+    scene.photonMap.photons = 40000;
+    Renderer renderer(scene, options);
+    const double twilight = lightOf(renderer);
+    scene.sun.directionTo = scene::skyDirection(70.0, 40.0);
+    renderer.setSun(scene.sun.directionTo, scene.sun.irradiance);
+    Renderer fresh(scene, options);
+    const double day = lightOf(renderer), expected = lightOf(fresh);
+    EXPECT_GT(twilight, 0.0);
+    EXPECT_GT(day, 100.0 * twilight);
+    EXPECT_NEAR(day, expected, 0.02 * expected);
+    EXPECT_EQ(renderer.statistics().saturated, 0U);
+}
+
 TEST(RendererAtmosphere, RefusesACameraBelowTheGround) {
     scene::Scene scene = sceneUnder(30.0);
     scene.camera.position = dvec3(0.0, -50.0, 500.0);

@@ -120,6 +120,7 @@ void addSky(AirLight& light, const sky::Atmosphere& atmosphere, const sky::SkyMa
 AirLight makeAirLight(const sky::Atmosphere& atmosphere, const sky::SkyMaps& maps, const scene::Sun& sun,
                       const Box& box) {
     AirLight light;
+    light.sunAbove = sun.irradiance;
     const glm::dvec3 up = atmosphere.upAt(box.origin + box.edges * (0.5 * box.size));
     addSun(light, atmosphere, sun, box, maps.axes()[0], up);
     addSky(light, atmosphere, maps, box, up);

@@ -16,6 +16,7 @@ struct AirLight {
     std::vector<shared::SkyCell> cells;  ///< of the sky's map
     glm::dvec3 skyFlux{0.0};             ///< of sky and ground through the cloud's box [W]
     double skyPeak = 1.0;                ///< largest weight of a photon of the sky
+    glm::dvec3 sunAbove{0.0};            ///< irradiance of the sun above the air: no light in the cloud has more
     glm::dmat3 skyAxes{1.0};             ///< from the map to the world
 };
 

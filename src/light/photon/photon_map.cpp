@@ -44,9 +44,9 @@ int exponentAbove(double value) {
 
 /// Through the cloud's box, wherever the sun stands: so the ring's unit does not depend on it, and pictures under a sun
 /// that came there have the bits of those where it always was.
-double greatestFlux(const scene::Sun& sun, const Emission& emission, const glm::dmat3& faceArea) {
+double greatestFlux(const glm::dvec3& irradiance, const Emission& emission, const glm::dmat3& faceArea) {
     const double area = glm::length(faceArea[0]) + glm::length(faceArea[1]) + glm::length(faceArea[2]);
-    return glm::compMax(sun.irradiance * area + emission.skyFlux);
+    return glm::compMax(irradiance * area + emission.skyFlux);
 }
 
 /// A texel for each collector.
@@ -102,8 +102,9 @@ struct PhotonMap::State {
     };
     std::optional<Before> before;
 
-    int unitExponentFor(const Emission& emission, const scene::Sun& sun);
-    bool traceLit(const Emission& emission, const scene::Sun& sun, const CutOff& cutOff);
+    /// `greatest`: the sun's largest irradiance that the ring may have to hold [W/m²].
+    int unitExponentFor(const Emission& emission, const glm::dvec3& greatest);
+    bool traceLit(const Emission& emission, const scene::Sun& sun, const glm::dvec3& greatest, const CutOff& cutOff);
 };
 
 PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Asset& preparedCloud, const Medium& theMedium,
@@ -129,17 +130,18 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Asset& preparedCl
 }
 
 /// The unit of a generation's records, and with the first that has light, that of the sum.
-int PhotonMap::State::unitExponentFor(const Emission& emission, const scene::Sun& sun) {
+int PhotonMap::State::unitExponentFor(const Emission& emission, const glm::dvec3& greatest) {
     const double most = std::max(glm::compMax(emission.sunPower(options.photonsPerGeneration)),
                                  glm::compMax(emission.skyPower(options.photonsPerGeneration)) * emission.skyPeak);
-    if (!sums.hasUnit()) sums.setUnit(exponentAbove(greatestFlux(sun, emission, tracer.faceArea())) - unitBits);
+    if (!sums.hasUnit()) sums.setUnit(exponentAbove(greatestFlux(greatest, emission, tracer.faceArea())) - unitBits);
     const int unitExponent = exponentAbove(most / static_cast<double>(shared::POWER_UNITS));
     const int finer = -sums.shiftOf(unitExponent);
     return finer > 0 && finer <= sparedBits ? unitExponent + finer : unitExponent;
 }
 
-bool PhotonMap::State::traceLit(const Emission& emission, const scene::Sun& sun, const CutOff& cutOff) {
-    const int unitExponent = unitExponentFor(emission, sun);
+bool PhotonMap::State::traceLit(const Emission& emission, const scene::Sun& sun, const glm::dvec3& greatest,
+                                const CutOff& cutOff) {
+    const int unitExponent = unitExponentFor(emission, greatest);
     const Buffer& into = sums.begin(unitExponent, static_cast<bool>(cutOff.due));
     return tracer.trace(emission, sun, newExtinction, unitExponent, static_cast<std::uint32_t>(sums.kept()), into,
                         counters, sums.records(), log, cutOff);
@@ -177,7 +179,9 @@ bool PhotonMap::tryTrace(const scene::Sun& sun, const sky::Environment& environm
         return true;
     }
     try {
-        if (s.traceLit(emission, sun, cutOff)) return true;
+        // a ring that began in twilight holds noon too
+        const glm::dvec3& greatest = air != nullptr && s.options.keepRing ? air->sunAbove : sun.irradiance;
+        if (s.traceLit(emission, sun, greatest, cutOff)) return true;
     } catch (...) {
         drop();
         throw;
