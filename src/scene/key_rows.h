@@ -40,6 +40,7 @@ inline Key other(Text name, Type type, Text fallback, Text documentation, Setter
 /// Rows of other files.
 std::vector<Key> groundKeys();
 std::vector<Key> detailKeys();
+std::vector<Key> mapKeys();
 std::vector<Key> sunAndSkyKeys();
 std::vector<Key> atmosphereKeys();
 std::vector<Key> timeKeys();  ///< time, moon, and what of the sun goes with them

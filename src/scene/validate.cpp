@@ -178,6 +178,28 @@ void checkPhaseTable(const Phase& phase, const std::string& cloud, std::span<con
     }
 }
 
+void checkSkyMap(Scene& scene, std::span<const std::filesystem::path> allowed, const Settings& settings) {
+    if (scene.sky.model != SkyModel::map) {
+        for (const char* key : {"sky.map", "sky.map_scale", "sky.map_rotation", "sky.map_sun"}) {
+            const Setting* given = settings.find(key);
+            if (given == nullptr ||
+                (given->fromFile && settings.find("sky.model") != nullptr && !settings.find("sky.model")->fromFile))
+                continue;
+            throw InputError(fmt::format("{} has no effect", key), given->where,
+                             "leave it out, or write sky.model = \"map\"");
+        }
+        return;
+    }
+    const std::filesystem::path& map = scene.sky.map;
+    std::error_code ec;
+    const bool exists = map.empty() || (isAllowed(map, allowed) && std::filesystem::exists(map, ec));
+    if (!exists || std::filesystem::is_directory(map, ec)) {
+        throw InputError(fmt::format("{} {}", map.string(), exists ? "is a folder" : "does not exist"),
+                         whereOf(settings, {"sky.map"}), "give an EXR file, its path relative to the scene file");
+    }
+    if (settings.find("sun.irradiance") == nullptr) scene.sun.irradiance = glm::dvec3(0.0);
+}
+
 /// Whether `--set cloud.NAME.key` can mean nothing but the cloud of that name.
 bool isName(const std::string& name) {
     const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
@@ -210,6 +232,7 @@ Scene finishScene(Draft draft, const Settings& settings) {
     checkCamera(draft.scene.camera, settings);
     finishSunAndMoon(draft, settings);
     finishSky(draft, settings);
+    checkSkyMap(draft.scene, draft.allowed, settings);
     for (std::size_t i = 0; i < draft.scene.clouds.size(); ++i) {
         const Cloud& cloud = draft.scene.clouds[i];
         const std::string path = fmt::format("cloud.{}", i);

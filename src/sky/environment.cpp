@@ -3,10 +3,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/error.h"
+
 namespace lumulus::sky {
 
 Environment::Environment(const scene::Sky& sky, const std::optional<scene::Ground>& ground, double angularDiameter)
     : radiance_(sky.model == scene::SkyModel::constant ? sky.radiance : glm::dvec3(0.0)) {
+    if (sky.model == scene::SkyModel::map) {
+        throw InputError("only the reference takes a map as its sky", "sky.model",
+                         "use lumulus reference, or write sky.model = \"atmosphere\"");
+    }
     if (sky.model == scene::SkyModel::atmosphere)
         atmosphere_ = std::make_shared<const Atmosphere>(sky, ground, angularDiameter);
 }

@@ -8,3 +8,4 @@ lumulus_test(scene_test
   LINK lumulus_scene)
 target_compile_definitions(scene_test PRIVATE SOURCE_ROOT="${CMAKE_CURRENT_LIST_DIR}/../..")
 lumulus_test(scene_ground_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/scene_ground_test.cpp LINK lumulus_scene)
+lumulus_test(scene_map_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/scene_map_test.cpp LINK lumulus_scene)

@@ -34,6 +34,10 @@ std::string companionOf(const Key& key) {
     const std::set<std::string_view> ofAir{"sky.preset", "sky.aerosol_depth", "sky.angstrom", "sky.ozone",
                                            "sky.ground_albedo"};
     if (ofAir.contains(key.name)) return "model = \"atmosphere\"\n";
+    const std::set<std::string_view> ofMap{"sky.map_scale", "sky.map_rotation", "sky.map_sun"};
+    if (ofMap.contains(key.name)) return "model = \"map\"\n";
+    if (key.name == "ground.albedo") return "height = 0.0\n";
+    if (key.name == "ground.height") return "albedo = 0.2\n";
     if (name == "droplet_diameter") return "phase.model = \"droplet\"\n";
     if (name == "falloff" || name == "direction" || name == "offset") return "kind = \"exponential\"\n";
     if (key.name == "field.smallest") return "largest = 1e6\n";
@@ -202,7 +206,7 @@ TEST(Suggest, NearestKey) {
     EXPECT_EQ(suggestKey("image.zzzzzz"),
               "the keys of image are background, ev100, exposure, exposure_mode, height, tone_map, width");
     EXPECT_EQ(suggestKey("image.extinction"), "did you mean extinction in [[cloud]]?");
-    EXPECT_THAT(suggestKey("zzzzzz"), HasSubstr("the sections are camera, cloud, draw, field, fog, image"));
+    EXPECT_THAT(suggestKey("zzzzzz"), HasSubstr("the sections are camera, cloud, draw, field, fog, ground, image"));
 }
 
 TEST(Suggest, EditDistance) {
