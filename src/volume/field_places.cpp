@@ -134,8 +134,8 @@ void Placer::cover(CoverMap& map, const Cloud& cloud) const {
 /// The best of some random places: free of other clouds, with a rim around, and where clouds gather.
 glm::dvec2 Placer::bestPlace(const CoverMap& map, double diameter, vdb::RandomStream& random) const {
     constexpr int candidates = 16, directions = 8;
-    constexpr std::array<double, 3> rings{0.25, 0.45, 0.6};  // of the diameter
-    constexpr double clustering = 0.7;
+    constexpr std::array<double, 3> rings{0.3, 0.55, 0.75};  // of the diameter
+    constexpr double clustering = 0.35;
     glm::dvec2 best(0.0);
     double lowest = 1e9;
     for (int i = 0; i < candidates; ++i) {
@@ -221,7 +221,7 @@ std::vector<Placer::Cloud> Placer::cellsOf(double gridSpacing) const {
     std::vector<float> ranks;
     for (int row = -rows; row <= rows; ++row) {
         for (int column = -rows; column <= rows; ++column) {
-            constexpr double jitter = 0.4;
+            constexpr double jitter = 0.3;
             const glm::dvec2 shift(static_cast<double>(random.uniform(-0.5F, 0.5F)),
                                    static_cast<double>(random.uniform(-0.5F, 0.5F)));
             const glm::dvec2 at(column + 0.5 * (row & 1) + jitter * shift.x,
