@@ -74,9 +74,9 @@ TEST_F(SchedulerTest, ClientsShareTheTime) {
         for (const ClientId client : asking) scheduler.submit(frame(client, ++id));
         const std::optional<Job> job = take();
         scheduler.done(*job);
-        const double milliseconds = job->client == 1 ? 100.0 : 20.0;
-        scheduler.charge(job->client, milliseconds);
-        EXPECT_EQ(scheduler.lastCost(job->client), milliseconds);
+        const double cost = job->client == 1 ? 100.0 : 20.0;
+        scheduler.charge(job->client, cost);
+        EXPECT_EQ(scheduler.lastCost(job->client), cost);
         return job->client;
     };
     std::map<ClientId, int> frames;
@@ -88,6 +88,8 @@ TEST_F(SchedulerTest, ClientsShareTheTime) {
     for (int i = 0; i < 55; ++i) ++frames[serve({1, 2, 3})];
     EXPECT_NEAR(frames[1], 5, 1);
     EXPECT_NEAR(frames[2], frames[3], 1) << "it did not save up the time before";
+    scheduler.charge(2, 60000.0);
+    EXPECT_EQ(scheduler.lastCost(2), 100.0) << "the machine stood still";
     EXPECT_EQ(scheduler.lastCost(9), 0.0);
 }
 
