@@ -272,8 +272,9 @@ CostModel::Work SceneSlot::workFor(const std::vector<View>& views, double time) 
 bool SceneSlot::needsGeneration(const Job& job, const FrameRequest& frame) const {
     if (!wantsGeneration()) return false;
     const Generations ring = renderer_->generations();
-    // light of its own has no photons at first, and without any a cloud is dark
-    if (source_ && ring.count == 0 && frame.budget.photons != std::uint64_t{0}) return true;
+    // light of its own has no photons at first, and without any a cloud is dark; nor are there any in the first
+    // generation
+    if (ring.count == 0 && (source_ || tracing_ > 0) && frame.budget.photons != std::uint64_t{0}) return true;
     if (frame.budget.photons)
         return static_cast<std::uint64_t>(ring.current) * ring.photonsEach < *frame.budget.photons ||
                (ring.current == 0 && *frame.budget.photons > 0);

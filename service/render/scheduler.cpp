@@ -10,6 +10,11 @@ namespace lumulus::service {
 
 namespace {
 
+/// Milliseconds that a client may have had more than the others, before what is more is forgotten.
+constexpr double mostOwed = 1000.0;
+/// What a picture may take more than the last one of its client: a factor, and milliseconds.
+constexpr double mostGrowth = 4.0, always = 20.0;
+
 std::optional<std::uint32_t> channelOf(const Job& job) {
     const auto* frame = std::get_if<FrameRequest>(job.work.get());
     if (frame == nullptr || frame->queue) return std::nullopt;
@@ -129,7 +134,7 @@ std::optional<Job> Scheduler::takeWhere(Clock::time_point now, const Revision& r
     for (auto it = line_.begin(); it != line_.end(); ++it) {
         Client& client = clients_.at(*it);
         if (blocked(client) || !condition(*it, client)) continue;
-        client.served = std::max(client.served, served_);
+        client.served = std::clamp(client.served, served_, served_ + mostOwed);
         order.push_back(it);
     }
     std::ranges::stable_sort(order, {}, [this](const auto& it) {
@@ -151,8 +156,11 @@ std::optional<Job> Scheduler::takeWhere(Clock::time_point now, const Revision& r
 void Scheduler::charge(ClientId id, double milliseconds) {
     const auto it = clients_.find(id);
     if (it == clients_.end()) return;
-    it->second.served += milliseconds;
-    it->second.lastCost = milliseconds;
+    // a picture during which the machine stood still is none of its client's doing
+    const double last = it->second.lastCost;
+    const double believed = last > 0.0 ? std::min(milliseconds, mostGrowth * last + always) : milliseconds;
+    it->second.served += believed;
+    it->second.lastCost = believed;
 }
 
 double Scheduler::lastCost(ClientId client) const {

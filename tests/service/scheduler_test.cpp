@@ -88,6 +88,8 @@ TEST_F(SchedulerTest, ClientsShareTheTime) {
     for (int i = 0; i < 55; ++i) ++frames[serve({1, 2, 3})];
     EXPECT_NEAR(frames[1], 5, 1);
     EXPECT_NEAR(frames[2], frames[3], 1) << "it did not save up the time before";
+    scheduler.charge(2, 60000.0);
+    EXPECT_EQ(scheduler.lastCost(2), 100.0) << "the machine stood still";
     EXPECT_EQ(scheduler.lastCost(9), 0.0);
 }
 
