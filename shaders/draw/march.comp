@@ -12,6 +12,7 @@ layout(constant_id = 0) const bool FORWARD_CUT = false;
 layout(constant_id = 1) const bool SUN = true;      // the sun shines
 layout(constant_id = 2) const bool PHOTONS = true;  // there is a photon map
 layout(constant_id = 4) const bool MANY = false;     // more than one instance
+layout(constant_id = 5) const bool AIR = false;      // an atmosphere: the sun's light differs by place
 layout(constant_id = 3) const bool GREY = false;     // albedo and phase function are the same for all colours
 layout(constant_id = 8) const bool COLOURED = false; // the phase function of a cloud differs between colours
 
@@ -25,6 +26,7 @@ layout(binding = 6, scalar) writeonly buffer Pixels { Pixel pixels[]; };
 layout(binding = 7) uniform sampler3D density;
 layout(binding = 8, r32f) readonly uniform image3D majorants;  // normalised; negative: distances in empty space
 layout(binding = 9, scalar) readonly buffer Blocks { uvec3 blockGroups; uint blockCount; uint blocks[]; };
+layout(binding = 13) uniform sampler2D sunColours;
 layout(push_constant, scalar) uniform Push { DrawPush push; };
 
 // Held in registers: a load from a buffer costs a loop over the lanes on lavapipe, in every step.

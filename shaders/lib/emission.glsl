@@ -29,14 +29,13 @@ float lightOneMinusCos(TraceParams params, bool ofSun, float u) {
     return ofSun ? params.sunCone * u : environmentOneMinusCos(u);
 }
 
-/// Where light of this direction enters, in voxel coordinates: uniform over the projection of the box (sun), or over
-/// the faces (sky; `choice` as above). Also the photon's weight: the projected area for this direction against that for
-/// the middle of the sun's disc.
-vec3 entryPoint(TraceParams params, bool ofSun, vec3 direction, vec2 u, float choice, out float weight) {
+/// Where light of this direction enters, in voxel coordinates: uniform over the projection of the box, whose `area` is that
+/// which the direction sees [m²], or over the faces (a constant sky; `choice` as above).
+vec3 entryPoint(TraceParams params, bool byProjection, vec3 direction, vec2 u, float choice, out float area) {
     const vec3 through = vec3(dot(params.faceArea[0], direction), dot(params.faceArea[1], direction),
                               dot(params.faceArea[2], direction));
-    const vec3 weights = ofSun ? abs(through) : params.faceSize;
-    weight = ofSun ? (weights.x + weights.y + weights.z) / params.sunThrough : 1.0;
+    const vec3 weights = byProjection ? abs(through) : params.faceSize;
+    area = weights.x + weights.y + weights.z;
     const bvec3 axis = chooseAxis(weights, choice);
     const vec3 inside = params.size * vec3(u.x, axis.z ? u.y : u.x, u.y);
     return mix(inside, mix(vec3(0.0), params.size, lessThan(through, vec3(0.0))), axis);

@@ -1,6 +1,6 @@
 // Light of one view ray, put together from segments that lie in one instance each, nearest first. The includer declares
 // lightField, shadowVolume, PhaseTable, singleScatterH, singleScatterK, `params`, `push` and the constants FORWARD_CUT, GREY,
-// SUN, PHOTONS and MANY.
+// SUN, PHOTONS, AIR and MANY; sunColours with AIR.
 #ifndef LUMULUS_LIB_RAY_SEGMENT
 #define LUMULUS_LIB_RAY_SEGMENT
 
@@ -52,6 +52,12 @@ float depthToSun(InstanceParams instance, vec3 voxel) {
     return textureLod(shadowVolume, place, 0.0).r;
 }
 
+/// The sun's light at a place of an instance, against the most that it has anywhere in it.
+vec3 sunColour(InstanceParams instance, vec3 voxel) {
+    const vec2 place = airPlace(instance.air, voxel) * vec2(SUN_COLOUR_COLUMNS - 1, SUN_COLOUR_ROWS - 1) + 0.5;
+    return textureLod(sunColours, (instance.airTexel + place) / vec2(textureSize(sunColours, 0)), 0.0).rgb;
+}
+
 /// Where in a segment (0 its near end, 1 its far end) the light seen comes from, as the quantile u of what it sends: in
 /// the middle of thin ones, at the skin of thick ones.
 float seenAt(float thickness, float u) {
@@ -71,7 +77,11 @@ void addSegment(inout RayLight ray, InstanceParams instance, SunView sun, float 
         if (MANY) before = -ray.truncated;
         ray.cloud += instance.albedo * instance.scatterShare * inScattered(instance, voxel) * filled * expScaled(before);
     }
-    if (SUN) ray.cloud += sunScattered(sun, instance, tauSun, ray.depth, thickness);
+    if (SUN) {
+        vec3 scattered = sunScattered(sun, instance, tauSun, ray.depth, thickness);
+        if (AIR) scattered *= sunColour(instance, voxel);
+        ray.cloud += scattered;
+    }
     const float weight = exp(-ray.depth) * (1.0 - exp(-thickness));
     ray.distance += weight * 0.5 * (near + far);
     ray.weight += weight;

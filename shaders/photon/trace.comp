@@ -9,6 +9,7 @@
 #include "shared/phase_table.h"
 #include "lib/density.glsl"
 #include "lib/emission.glsl"
+#include "lib/environment_sample.glsl"
 #include "lib/traversal.glsl"
 
 layout(local_size_x = 64) in;
@@ -17,6 +18,7 @@ layout(constant_id = 1) const bool FORWARD_CUT = false;  // the forward peak is 
 layout(constant_id = 2) const bool ABSORBS = false;     // an albedo below 1
 layout(constant_id = 3) const bool PERIODIC = false;    // a plane-parallel layer across y
 layout(constant_id = 4) const bool AXIS = false;        // the phase function has a backward peak
+layout(constant_id = 5) const bool AIR = false;         // an atmosphere: its light differs by direction and place
 #include "lib/store.glsl"
 
 layout(binding = 0) uniform sampler3D density;
@@ -71,6 +73,7 @@ bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint c
         const vec3 power = (ofSun ? params.sunPower : params.skyPower) * state.weight;
         if (store(params, voxel, state.direction, power, ofSun, count * params.invocations + lane)) ++count;
     }
+    if (AIR && ofSun && state.scatterings == 0u) state.weight *= sunColour(airPlace(params.air, voxel));
     ++state.scatterings;
     return !ABSORBS || survives(state, params.albedo, u.y);
 }
@@ -98,13 +101,21 @@ void newDirection(inout TraceState state, inout Walk walk, bool enters, vec4 u, 
     const ScatterAngle angle = ScatterAngle(enters ? emitted.oneMinusCos : scattered.oneMinusCos, 0.0,
                                             enters ? emitted.sinTheta : scattered.sinTheta);
     state.direction = rotateDirection(axis, angle, 6.28318531 * u.w);
+    const bool ofMap = AIR && enters && !ofSun;
+    uint cell = 0u;
+    if (ofMap) {
+        cell = skyCell(u.z, u.x);
+        state.direction = skyTravel(params.skyAxes, cell, vec2(u.w, v.w));
+    }
     setVelocity(walk, params.worldToCells * state.direction);
     if (enters) {
-        float weight;
-        const vec3 point = entryPoint(params, ofSun, state.direction, v.xy, v.z, weight) / params.cellSize;
+        float area;
+        const vec3 voxel = entryPoint(params, AIR || ofSun, state.direction, v.xy, v.z, area);
+        const vec3 point = voxel / params.cellSize;
         walk.cell = clamp(ivec3(floor(point)), ivec3(0), params.cells - 1);
         walk.offset = clamp(point - vec3(walk.cell), 0.0, 1.0);
-        state.weight = vec3(weight);
+        state.weight = vec3(ofSun ? area / params.sunThrough : 1.0);
+        if (ofMap) state.weight = skyWeight(cell, airPlace(params.air, voxel).y, area);
     }
 }
 

@@ -2,6 +2,7 @@
 #ifndef LUMULUS_SHARED_INSTANCE_H
 #define LUMULUS_SHARED_INSTANCE_H
 
+#include "shared/air_light.h"
 #include "shared/prelude.h"
 
 SHARED_BEGIN
@@ -29,6 +30,9 @@ struct InstanceParams {
     vec3 densityOrigin, lightOrigin, shadowOrigin;
     ivec3 cellOrigin;
     vec3 lightSize, shadowSize;
+    // With an atmosphere: the sun's light within the instance, and where its table begins.
+    AirPlace air;
+    vec2 airTexel;
 };
 
 /// Reciprocals of the atlases' sizes [1/texels]; unused where there is one instance.
@@ -43,7 +47,7 @@ struct CopyVolumePush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(InstanceParams) == 276 && offsetof(InstanceParams, shadowSize) == 264);
+static_assert(sizeof(InstanceParams) == 316 && offsetof(InstanceParams, airTexel) == 308);
 static_assert(sizeof(AtlasParams) == 36 && offsetof(AtlasParams, shadow) == 24);
 static_assert(sizeof(CopyVolumePush) == 24 && offsetof(CopyVolumePush, origin) == 12);
 #endif

@@ -2,6 +2,7 @@
 #ifndef LUMULUS_SHARED_PHOTON_H
 #define LUMULUS_SHARED_PHOTON_H
 
+#include "shared/air_light.h"
 #include "shared/prelude.h"
 
 SHARED_BEGIN
@@ -52,6 +53,8 @@ struct TraceParams {
     int estimatorEdge;    // of a cell, voxels; 0: none
     ivec3 estimatorCells;
     uint axisBase;  // where the rings about the sun's axis follow the estimates
+    AirPlace air;   // with an atmosphere only, as what follows
+    mat3 skyAxes;   // from the map of the sky to the world
 };
 
 /// A photon between two dispatches.
@@ -115,7 +118,7 @@ struct ReconstructPush {
 
 #ifdef __cplusplus
 // Scalar layout, as SPIR-V has it; tests/unit/shared_layout_test.cpp compares every member.
-static_assert(sizeof(TraceParams) == 264 && offsetof(TraceParams, axisBase) == 260);
+static_assert(sizeof(TraceParams) == 332 && offsetof(TraceParams, skyAxes) == 296);
 static_assert(sizeof(TraceState) == 72 && offsetof(TraceState, alive) == 68);
 static_assert(sizeof(PhotonRecord) == 16 && offsetof(PhotonRecord, power) == 8);
 static_assert(sizeof(TraceCounters) == 80 && offsetof(TraceCounters, unused) == 76);

@@ -18,11 +18,12 @@ struct DrawFeatures {
     bool grey = false;      ///< albedo and phase function of each cloud are the same for all colours
     bool coloured = false;  ///< the phase function of a cloud differs between colours
     bool many = false;      ///< more than one instance
+    bool air = false;       ///< the sky is an atmosphere
 
     std::vector<gpu::SpecConstant> constants() const {
-        return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun),
-                gpu::SpecConstant::of(2, photons),    gpu::SpecConstant::of(3, grey),
-                gpu::SpecConstant::of(4, many),       gpu::SpecConstant::of(8, coloured)};
+        return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun),  gpu::SpecConstant::of(2, photons),
+                gpu::SpecConstant::of(3, grey),       gpu::SpecConstant::of(4, many), gpu::SpecConstant::of(5, air),
+                gpu::SpecConstant::of(8, coloured)};
     }
 };
 
@@ -40,6 +41,7 @@ struct Volumes {
     const gpu::Image& majorants;
     const gpu::Image& lightField;
     const gpu::Image& shadowVolume;
+    const gpu::Image& sunColours;  ///< of an atmosphere; a texel where there is none
 };
 
 /// What every drawing pass reads and writes. `params` holds one shared::DrawParams, `instances` a
@@ -61,6 +63,7 @@ struct DrawInputs {
                 {"density", volumes.density, gpu::Sampler::linear},
                 {"lightField", volumes.lightField, gpu::Sampler::linearClamp},
                 {"shadowVolume", volumes.shadowVolume, gpu::Sampler::linearClamp},
+                {"sunColours", volumes.sunColours, gpu::Sampler::linearClamp},
                 {"Pixels", pixels},
                 {"Blocks", squares}};
     }

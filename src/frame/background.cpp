@@ -5,12 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
-
-#include "frame/sun_cover.h"
 
 namespace lumulus::frame {
 
@@ -39,17 +35,6 @@ LayeredImage emptyFrame(const Tile& tile, const glm::dvec3& radiance) {
         image.layers.at(values[i].first).assign(image.pixels(), values[i].second);
     });
     return image;
-}
-
-std::vector<shared::SunPixel> sunPixels(const Camera& camera, const Tile& tile, const scene::Sun& sun) {
-    const double radius = 0.5 * sun.angularDiameter * std::numbers::pi / 180.0;
-    const double disc = std::numbers::pi * std::pow(std::sin(radius), 2);
-    std::vector<shared::SunPixel> pixels;
-    if (!(disc > 0.0) || sun.irradiance == glm::dvec3(0.0)) return pixels;
-    for (const CoveredPixel& covered : sunCover(camera, tile, sun.directionTo, radius))
-        pixels.push_back(
-            {covered.pixel - glm::ivec2(tile.x, tile.y), glm::vec3(covered.share * sun.irradiance / disc)});
-    return pixels;
 }
 
 void addSun(LayeredImage& image, const std::vector<shared::SunPixel>& pixels) {

@@ -4,19 +4,13 @@
 #include <vector>
 
 #include "base/image.h"
-#include "scene/scene.h"
 #include "shared/frame.h"
-#include "view/camera.h"
 #include "view/view.h"
 
 namespace lumulus::frame {
 
 /// All layers that a picture has, of that radiance, nothing in the way. A is 1: the background is part of R, G, B.
 LayeredImage emptyFrame(const Tile& tile, const glm::dvec3& radiance = glm::dvec3(0.0));
-
-/// The pixels of the part `tile` that see the sun's disc, counted from its corner, with the radiance that the disc adds
-/// to them: its mean over the pixel's solid angle, as nothing were in the way.
-std::vector<shared::SunPixel> sunPixels(const Camera& camera, const Tile& tile, const scene::Sun& sun);
 
 /// Adds the sun's disc to layers R, G and B, as seen through what the pixels' transmittance says.
 void addSun(LayeredImage& image, const std::vector<shared::SunPixel>& pixels);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "light/light_field.h"
+#include "light/photon/air_light.h"
 #include "light/photon/photon_map.h"
 #include "light/shadow_volume.h"
 
@@ -11,7 +12,8 @@ namespace lumulus::light {
 
 /// The light in one instance, whatever the view. Each part exists only where the scene needs it.
 struct InstanceLight {
-    scene::Sun sun;                            ///< that reaches the instance
+    scene::Sun sun;                            ///< that reaches the instance; in an atmosphere the most of it
+    std::optional<photon::AirLight> air;       ///< where the sky is an atmosphere
     cloud::CellGrid estimatorGrid;             ///< of the collision estimator
     std::optional<photon::PhotonMap> photons;  ///< none where no photon would be of use
     std::optional<ShadowVolume> shadow;        ///< none without a sun

@@ -11,4 +11,9 @@ scene::Sun LightSet::sunAt(const glm::dvec3& point, const scene::Fog& fog) const
     return reaching;
 }
 
+const sky::SkyMaps& LightSet::skyMaps(const glm::dvec3& place) {
+    if (!skyMaps_ || !skyMaps_->isOf(place, sun)) skyMaps_.emplace(*environment.atmosphere(), place, sun);
+    return *skyMaps_;
+}
+
 }  // namespace lumulus::light

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "reference/fingerprint.h"
+#include "scene/ephemeris.h"
 #include "scene/phase_table_file.h"
 
 namespace lumulus::reference {
@@ -60,6 +61,7 @@ std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::Pl
     Fingerprint print;
     print.add(seed).add(majorant).add(scene.sun.angularDiameter);
     addVector(print, scene.sun.directionTo);
+    if (scene.sun.refraction) print.add(scene.sun.refraction);
     addVector(print, scene.sun.irradiance);
     addVector(print, scene.sky.radiance);
     addCamera(print, camera);
@@ -78,7 +80,7 @@ Renderer::Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolum
       tracer_(scene, volumes, majorant, camera_.position),
       discRadiance_(tracer_.environment().discRadiance(camera_.position, scene.sun.directionTo)),
       background_(scene.image.background),
-      discCover_(camera_, tracer_.environment().sunDirection(),
+      discCover_(camera_, scene::apparentDirection(scene.sun),
                  tracer_.environment().sunny() ? tracer_.environment().sunRadius() : 0.0),
       seed_(seed),
       fingerprint_(fingerprintOf(scene, volumes, camera_, majorant, seed)) {

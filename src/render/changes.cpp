@@ -34,8 +34,7 @@ bool setSun(World& world, const glm::dvec3& directionTo, const glm::dvec3& irrad
         for (light::InstanceLight& light : world.light) light.shadowReduction = 0;
     sun.directionTo = directionTo;
     sun.irradiance = irradiance;
-    for (std::size_t i = 0; i < world.instances.size(); ++i)
-        world.light[i].sun = world.lights.sunAt(world.instances[i].bounds.centre, world.fog);
+    findReachingLight(world);
     return true;
 }
 

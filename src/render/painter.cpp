@@ -19,6 +19,7 @@ Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& d
       features_(featuresOf(world)),
       phase_(makePhaseTables(context, world, features_, phaseTables_)),
       none_(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT),
+      noColours_(context, "no colours", glm::ivec2(1), VK_FORMAT_R32G32B32A32_SFLOAT),
       noSquares_(draw::noSquares(context)) {
     if (features_.many) {
         densities_.emplace(context, "density atlas", densitiesOf(world), densityFormat(world));
@@ -61,15 +62,16 @@ Tile Painter::shownPart(const World& world, const ViewState::State& view) const 
     return shown;
 }
 
-draw::Volumes Painter::volumes(const World& world, const ViewState::State& view) const {
+draw::Volumes Painter::volumes(const World& world, const ViewState::State& view, const gpu::Image& sunColours) const {
     if (features_.many)
         return {densities_->image(), majorants_->image(), view.lightFields ? view.lightFields->image() : none_,
-                view.shadowVolumes ? view.shadowVolumes->image() : none_};
+                view.shadowVolumes ? view.shadowVolumes->image() : none_, sunColours};
     const std::size_t only = visible_.front();
     const cloud::Asset& asset = *world.instances[only].asset;
     const auto& field = view.instances[only].field;
     const auto& shadow = world.light[only].shadow;
-    return {asset.density, asset.marchedCells(), field ? field->image() : none_, shadow ? shadow->image() : none_};
+    return {asset.density, asset.marchedCells(), field ? field->image() : none_, shadow ? shadow->image() : none_,
+            sunColours};
 }
 
 shared::InstanceParams Painter::instanceParams(const World& world, const ViewState::State& view,
@@ -84,6 +86,10 @@ shared::InstanceParams Painter::instanceParams(const World& world, const ViewSta
     if (light.shadow) {
         params.voxelToShadow = light.shadow->voxelToTexture();
         params.shadowOffset = light.shadow->textureOffset();
+    }
+    if (light.air) {
+        params.air = light.air->place;
+        params.airTexel = glm::vec2(sunColourPlace(place));
     }
     if (!features_.many) return params;
     params.densityOrigin = glm::vec3(densities_->origin(place));
@@ -225,7 +231,9 @@ void Painter::paint(GpuWork& work, const World& world, ViewState::State& view, c
         interpolation.prepare(values.sampling, rows);
         view.sampledRowsDrawn = 0;
     }
-    const draw::Volumes bound = volumes(world, view);
+    std::optional<gpu::Image> sunColours;
+    if (features_.air) sunColours.emplace(sunColourImage(context, world));
+    const draw::Volumes bound = volumes(world, view, sunColours ? *sunColours : noColours_);
     const draw::DrawInputs inputs{params, instances, phase_, bound, pixels, noSquares_};
     report("drawing", 0, bands.size());
     for (std::size_t done = 0; done < bands.size(); ++done) {

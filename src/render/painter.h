@@ -38,7 +38,7 @@ class Painter {
     /// What one picture's passes bind.
     struct Picture;
 
-    draw::Volumes volumes(const World& world, const ViewState::State& view) const;
+    draw::Volumes volumes(const World& world, const ViewState::State& view, const gpu::Image& sunColours) const;
     shared::InstanceParams instanceParams(const World& world, const ViewState::State& view, std::size_t place) const;
     shared::DrawParams drawParams(const World& world, const ViewState::State& view) const;
     void fillAtlases(GpuWork& work, const World& world, ViewState::State& view) const;
@@ -58,6 +58,7 @@ class Painter {
     std::optional<draw::March> march_;
     std::optional<cloud::Atlas> densities_, majorants_;  ///< where several instances are drawn
     gpu::Image none_;  ///< stands for what the scene does not have: shaders never read it, but bindings must be there
+    gpu::Image noColours_;
     gpu::Buffer noSquares_;
 };
 

@@ -14,6 +14,7 @@ draw::DrawFeatures featuresOf(const World& world) {
     features.sun = world.hasShadows();
     features.photons = world.hasPhotons();
     features.many = instances.size() > 1;
+    features.air = world.lights.environment.atmosphere() != nullptr;
     return features;
 }
 
@@ -80,6 +81,30 @@ void setMedium(shared::InstanceParams& params, const phase::ScatteringMedium& me
     params.angleScale = tables.angleScale;
     params.tauMaximum = tables.tauMaximum;
     params.phaseTable = phaseTable;
+}
+
+glm::ivec2 sunColourPlace(std::size_t place) {
+    constexpr std::size_t down = 256;
+    return {static_cast<int>(place / down) * shared::SUN_COLOUR_COLUMNS,
+            static_cast<int>(place % down) * shared::SUN_COLOUR_ROWS};
+}
+
+gpu::Image sunColourImage(gpu::Context& context, const World& world) {
+    const std::vector<std::size_t> visible = world.visible();
+    const glm::ivec2 last = sunColourPlace(visible.size() - 1);
+    const glm::ivec2 table(shared::SUN_COLOUR_COLUMNS, shared::SUN_COLOUR_ROWS);
+    const glm::ivec2 size = glm::ivec2(last.x, last.x > 0 ? sunColourPlace(255).y : last.y) + table;
+    gpu::Image image(context, "sun colours", size, VK_FORMAT_R32G32B32A32_SFLOAT);
+    std::vector<glm::vec4> texels(static_cast<std::size_t>(size.x * size.y), glm::vec4(1.0F));
+    for (std::size_t place = 0; place < visible.size(); ++place) {
+        const std::vector<glm::vec3>& colours = world.light[visible[place]].air->sunColours;
+        const glm::ivec2 at = sunColourPlace(place);
+        for (int i = 0; i < table.x * table.y; ++i)
+            texels[static_cast<std::size_t>((at.y + i / table.x) * size.x + at.x + i % table.x)] =
+                glm::vec4(colours[static_cast<std::size_t>(i)], 1.0F);
+    }
+    gpu::upload(context, image, texels);
+    return image;
 }
 
 Tile unite(const Tile& a, const Tile& b) {

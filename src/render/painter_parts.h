@@ -27,6 +27,11 @@ void setPlace(shared::InstanceParams& params, const cloud::Instance& instance, c
 void setMedium(shared::InstanceParams& params, const phase::ScatteringMedium& medium, const scene::Sun& sun,
                int phaseTable);
 
+/// Where the table of the instance at a place of the list begins in sunColourImage() [texels].
+glm::ivec2 sunColourPlace(std::size_t place);
+/// How the sun's light changes within each visible instance, in a world whose sky is an atmosphere.
+gpu::Image sunColourImage(gpu::Context& context, const World& world);
+
 /// The smallest tile that holds both. An empty one adds nothing.
 Tile unite(const Tile& a, const Tile& b);
 

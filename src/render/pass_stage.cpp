@@ -14,7 +14,7 @@ struct Entry {
     Stage stage;
 };
 
-constexpr std::array<Entry, 25> entries{{
+constexpr std::array<Entry, 26> entries{{
     {"trace", Stage::photons},
     {"sort", Stage::photons},
     {"gather", Stage::photons},
@@ -30,6 +30,7 @@ constexpr std::array<Entry, 25> entries{{
     {"interpolate refined", Stage::draw},
     {"atlas", Stage::light},
     {"frame background", Stage::fog},
+    {"frame sky", Stage::draw},
     {"frame sun", Stage::fog},
     {"frame band", Stage::fog},
     {"frame download", Stage::fog},

@@ -1,13 +1,27 @@
 #include "render/picture.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/stopwatch.h"
 #include "fog/screen/depth.h"
 #include "frame/background.h"
+#include "frame/sun_disc.h"
 #include "render/view_light.h"
+#include "scene/ephemeris.h"
 
 namespace lumulus {
+
+namespace {
+
+/// The sun as its disc is seen.
+scene::Sun shownSun(const World& world) {
+    scene::Sun sun = world.lights.sun;
+    sun.directionTo = scene::apparentDirection(sun);
+    return sun;
+}
+
+}  // namespace
 
 void PictureOrder::drawLight(ViewState::State& state, photon::Part part) {
     lightView(work, world, state, part, bands, shadowReduction);
@@ -21,19 +35,49 @@ void PictureOrder::drawBackground(ViewState::State& state) {
         state.frame.reset();
         state.frame.emplace(work.context, size);
     }
+    const glm::vec3 sky = world.lights.environment.params().radiance;
     work.run([&](gpu::Commands& commands) {
-        state.frame->recordBackground(commands, glm::vec3(world.lights.environment.uniformRadiance()), state.shown);
+        const Tile within{state.shown.x - state.tile.x, state.shown.y - state.tile.y, state.shown.width,
+                          state.shown.height};
+        state.frame->recordBackground(commands, sky, within);
     });
 }
 
-/// A part of the frame as seen through the fog.
+/// The sky and the ground behind the clouds, and the air before them.
+void PictureOrder::drawAtmosphere(ViewState::State& state) {
+    const sky::Atmosphere& air = *world.lights.environment.atmosphere();
+    double nearest = std::numeric_limits<double>::max(), farthest = 0.0;
+    for (const std::size_t i : world.visible()) {
+        const double away = glm::length(world.instances[i].middle() - state.camera.position);
+        nearest = std::min(nearest, std::max(0.0, away - 0.5 * world.instances[i].diagonal()));
+        farthest = std::max(farthest, away + 0.5 * world.instances[i].diagonal());
+    }
+    if (state.shown.height <= 0) nearest = farthest;
+    if (!state.sky) state.sky.emplace(work.context);
+    state.sky->update(air, state.camera, world.lights.sun, nearest, farthest);
+    work.run([&](gpu::Commands& commands) { state.sky->record(commands, *state.frame, state.camera, state.tile); });
+}
+
+/// A part of the frame as seen through the fog. A sky that differs by direction differs from its mean, which is what
+/// the fog takes for the same everywhere.
 LayeredImage PictureOrder::throughFog(ViewState::State& state, const Tile& wanted) {
     report("fog", 0, 1);
-    fog->apply(*state.frame, state.camera, glm::vec3(world.lights.environment.uniformRadiance()), wanted);
+    const glm::dvec3 sky = world.lights.environment.meanRadiance(state.camera.position, world.lights.sun);
+    fog->apply(*state.frame, state.camera, glm::vec3(sky), wanted);
     frame::addTimes(work.times, fog->takeTimes());
     LayeredImage image = state.frame->download(work.commands, wanted, work.times);
     report("fog", 1, 1);
     return image;
+}
+
+/// What follows the drawing into a frame.
+LayeredImage PictureOrder::finished(ViewState::State& state, const Tile& wanted) {
+    if (world.lights.environment.atmosphere() != nullptr) drawAtmosphere(state);
+    const std::vector<shared::SunPixel> sun =
+        frame::sunPixels(state.camera, state.tile, shownSun(world), world.lights.environment.atmosphere());
+    if (!sun.empty()) work.run([&](gpu::Commands& commands) { state.frame->recordSun(commands, sun); });
+    if (fog != nullptr) return throughFog(state, wanted);
+    return state.frame->download(work.commands, {0, 0, state.tile.width, state.tile.height}, work.times);
 }
 
 LayeredImage PictureOrder::picture(ViewState::State& state, const View& view) {
@@ -41,22 +85,18 @@ LayeredImage PictureOrder::picture(ViewState::State& state, const View& view) {
     if (fog != nullptr) state.tile = {0, 0, view.image.width, view.image.height};  // its filter sees beyond the tile
     state.shown = painter != nullptr ? painter->shownPart(world, state) : Tile{state.tile.x, state.tile.y, 0, 0};
     LayeredImage image;
-    if (fog != nullptr)
+    if (inFrame())
         drawBackground(state);
     else
-        image = frame::emptyFrame(state.tile, world.lights.environment.uniformRadiance());
+        image = frame::emptyFrame(state.tile, glm::dvec3(world.lights.environment.params().radiance));
     if (state.shown.height > 0) {
         drawLight(state, photon::Part::all);
-        painter->paint(work, world, state, draw::allBands(state.shown), fog == nullptr ? &image : nullptr, check,
-                       report);
+        painter->paint(work, world, state, draw::allBands(state.shown), inFrame() ? nullptr : &image, check, report);
     }
-    const std::vector<shared::SunPixel> sun = frame::sunPixels(state.camera, state.tile, world.lights.sun);
-    if (fog != nullptr) {
-        if (!sun.empty()) work.run([&](gpu::Commands& commands) { state.frame->recordSun(commands, sun); });
-        image = throughFog(state, wanted);
-    } else {
-        frame::addSun(image, sun);
-    }
+    if (inFrame())
+        image = finished(state, wanted);
+    else
+        frame::addSun(image, frame::sunPixels(state.camera, state.tile, shownSun(world)));
     if (!view.image.background) frame::leaveOutBackground(image);
     return image;
 }

@@ -23,8 +23,12 @@ struct PictureOrder {
     Preview preview(ViewState::State& state);
 
   private:
+    /// Whether passes follow the drawing: the layers are then on the GPU.
+    bool inFrame() const { return fog != nullptr || world.lights.environment.atmosphere() != nullptr; }
     void drawBackground(ViewState::State& state);
+    void drawAtmosphere(ViewState::State& state);
     LayeredImage throughFog(ViewState::State& state, const Tile& wanted);
+    LayeredImage finished(ViewState::State& state, const Tile& wanted);
     void drawLight(ViewState::State& state, photon::Part part);
 };
 

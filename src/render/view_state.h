@@ -9,6 +9,7 @@
 #include "draw/billboards.h"
 #include "draw/sparse_sampling.h"
 #include "frame/frame.h"
+#include "frame/sky_pass.h"
 #include "light/light_field.h"
 #include "render/renderer.h"
 #include "view/camera.h"
@@ -36,6 +37,7 @@ struct ViewState::State {
     std::map<int, draw::Interpolation> interpolations;       ///< by spacing
     std::optional<draw::Billboards::View> billboards;
     std::optional<frame::Frame> frame;  ///< where passes follow the drawing
+    std::optional<frame::SkyPass> sky;  ///< where the sky is an atmosphere
 };
 
 }  // namespace lumulus

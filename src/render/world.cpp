@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "light/photon/emission.h"
+#include "medium/fog_media.h"
 #include "medium/phase_note.h"
 #include "view/camera.h"
 #include "volume/load.h"
@@ -40,7 +41,8 @@ class Maker {
           scene_(scene),
           options_(options),
           report_(report),
-          world_{scene.fog, {scene.sun, scene.sky}, {}, {}, {}, {}, glm::dvec3(0.0)} {}
+          world_{scene.fog,      {scene.sun, {scene.sky, scene.ground, scene.sun.angularDiameter}}, {}, {}, {}, {},
+                 glm::dvec3(0.0)} {}
 
     World make() {
         const Stopwatch loading;
@@ -50,10 +52,8 @@ class Maker {
         makeCamera(scene_.camera, scene_.image, world_.bounds);  // what is wrong with it shows before the work
         const Stopwatch preparing;
         world_.light.resize(world_.instances.size());
-        for (std::size_t i = 0; i < placed.size(); ++i) {
-            world_.light[i].sun = world_.lights.sunAt(world_.instances[i].bounds.centre, world_.fog);
-            prepare(i, placed[i]);
-        }
+        for (std::size_t i = 0; i < placed.size(); ++i) prepare(i, placed[i]);
+        findReachingLight(world_);
         for (const std::size_t i : world_.visible()) lightUp(i);
         if (!placed.empty()) report_.prepareSeconds = preparing.seconds();
         return std::move(world_);
@@ -70,8 +70,8 @@ class Maker {
             if (instance.sceneExtinction != wanted) instance.medium.extinction *= wanted / instance.sceneExtinction;
             instance.sceneExtinction = wanted;
             instance.offset = glm::dvec3(0.0);
-            world_.light[i].sun = world_.lights.sunAt(instance.bounds.centre, world_.fog);
         }
+        findReachingLight(world_);
         for (const std::size_t i : world_.visible()) lightUp(i);
         return std::move(world_);
     }
@@ -189,6 +189,7 @@ void Maker::lightUp(std::size_t number) {
     options.splitGenerations = options_.progressive;
     options.estimates = light.estimatorGrid;
     options.check = options_.check;
+    options.air = light.air.has_value();
     options.memoryBudget =
         static_cast<std::uint64_t>(std::ldexp(wanted.memoryBudget, 20)) / static_cast<std::uint64_t>(visible.size());
     light.photons.emplace(context_, *instance.asset, instance.medium, options);
@@ -222,6 +223,25 @@ World makeWorldBeside(gpu::Context& context, const scene::Scene& scene, const Wo
     return Maker(context, scene, options, report).makeBeside(other);
 }
 
+void findReachingLight(World& world) {
+    const sky::Atmosphere* atmosphere = world.lights.environment.atmosphere();
+    for (std::size_t i = 0; i < world.instances.size(); ++i) {
+        const cloud::Instance& instance = world.instances[i];
+        light::InstanceLight& light = world.light[i];
+        light.sun = world.lights.sunAt(instance.bounds.centre, world.fog);
+        if (atmosphere == nullptr || instance.asset == nullptr) continue;
+        const glm::dvec3 middle = world.bounds.centre;
+        const photon::Box box{instance.origin + instance.offset, instance.voxelToMetres,
+                              glm::dvec3(instance.asset->size)};
+        const sky::SkyMaps& maps = world.lights.skyMaps({middle.x, atmosphere->groundHeight(), middle.z});
+        light.air = photon::makeAirLight(*atmosphere, maps, world.lights.sun, box);
+        const glm::dvec3 inFog = world.fog.media.empty()
+                                     ? glm::dvec3(1.0)
+                                     : fog::sunTransmittance(world.fog, instance.bounds.centre, light.sun.directionTo);
+        light.sun.irradiance = world.lights.sun.irradiance * inFog * light.air->mostSun;
+    }
+}
+
 bool traceAll(World& world, const CutOff& cutOff) {
     const auto dropAll = [&world] {
         for (light::InstanceLight& light : world.light)
@@ -232,7 +252,8 @@ bool traceAll(World& world, const CutOff& cutOff) {
         for (std::size_t i = 0; i < world.light.size(); ++i) {
             light::InstanceLight& light = world.light[i];
             const double extinction = world.instances[i].medium.extinction;
-            if (light.photons && !light.photons->tryTrace(light.sun, world.lights.environment, cutOff, extinction))
+            if (light.photons && !light.photons->tryTrace(light.sun, world.lights.environment, cutOff, extinction,
+                                                          light.air ? &*light.air : nullptr))
                 return dropAll();
         }
     } catch (...) {

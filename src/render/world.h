@@ -56,6 +56,9 @@ World makeWorld(gpu::Context& context, const scene::Scene& scene, const WorldOpt
 World makeWorldBeside(gpu::Context& context, const scene::Scene& scene, const World& other,
                       const WorldOptions& options);
 
+/// Finds the light that reaches the instances, after the lights or the places of instances have changed.
+void findReachingLight(World& world);
+
 /// Traces a generation of photons in every cloud. Returns false where `cutOff` ended one of them: none of them counts
 /// then.
 bool traceAll(World& world, const CutOff& cutOff);

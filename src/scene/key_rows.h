@@ -39,6 +39,7 @@ inline Key other(Text name, Type type, Text fallback, Text documentation, Setter
 
 /// Rows of other files.
 std::vector<Key> sunAndSkyKeys();
+std::vector<Key> atmosphereKeys();
 std::vector<Key> timeKeys();  ///< time, moon, and what of the sun goes with them
 std::vector<Key> phaseKeys();
 

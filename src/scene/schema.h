@@ -45,6 +45,7 @@ struct Draft {
     std::span<const std::filesystem::path> allowed;  ///< folders in which files may lie; empty: everywhere
     std::optional<glm::dvec3> directionTo;
     std::optional<double> azimuth, elevation;  ///< sun, degrees
+    std::optional<std::size_t> skyPreset;      ///< of the air, which keys of their own change
     std::optional<double> moonAzimuth, moonElevation;
 };
 

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "scene/alternatives.h"
+#include "scene/finish_sky.h"
 #include "scene/phase_table_file.h"
 #include "scene/sun_and_moon.h"
 
@@ -206,6 +207,8 @@ Scene finishScene(Draft draft, const Settings& settings) {
     checkImage(draft.scene.image, settings);
     checkCamera(draft.scene.camera, settings);
     finishSunAndMoon(draft, settings);
+    finishSky(draft, settings);
+    finishSunDistance(draft, settings);
     for (std::size_t i = 0; i < draft.scene.clouds.size(); ++i) {
         const Cloud& cloud = draft.scene.clouds[i];
         const std::string path = fmt::format("cloud.{}", i);

@@ -5,8 +5,47 @@
 
 namespace lumulus::sky {
 
-glm::dvec3 Environment::radiance(const glm::dvec3&) const {
-    return radiance_;
+Environment::Environment(const scene::Sky& sky, const std::optional<scene::Ground>& ground, double angularDiameter)
+    : radiance_(sky.model == scene::SkyModel::constant ? sky.radiance : glm::dvec3(0.0)) {
+    if (sky.model == scene::SkyModel::atmosphere)
+        atmosphere_ = std::make_shared<const Atmosphere>(sky, ground, angularDiameter);
+}
+
+glm::dvec3 Environment::radiance(const glm::dvec3& point, const glm::dvec3& direction, const scene::Sun& sun) const {
+    if (!atmosphere_) return radiance_;
+    return atmosphere_->radiance(point, direction, sun.directionTo) * (sun.irradiance / atmosphere_->sunAbove());
+}
+
+glm::dvec3 Environment::meanRadiance(const glm::dvec3& point, const scene::Sun& sun) const {
+    if (!atmosphere_) return radiance_;
+    constexpr int rows = 16, columns = 8;
+    glm::dvec3 sum(0.0);
+    for (int i = 0; i < rows * columns; ++i) {
+        const double height = -1.0 + 2.0 * (i / columns + 0.5) / rows, across = std::sqrt(1.0 - height * height);
+        const double azimuth = 2.0 * std::numbers::pi * (i % columns + 0.5) / columns;
+        sum += radiance(point, {across * std::cos(azimuth), height, across * std::sin(azimuth)}, sun);
+    }
+    return sum / static_cast<double>(rows * columns);
+}
+
+glm::dvec3 Environment::sunTransmittance(const glm::dvec3& point, const glm::dvec3& directionTo) const {
+    return atmosphere_ ? atmosphere_->sunColour(point, directionTo) : glm::dvec3(1.0);
+}
+
+AerialPerspective Environment::between(const glm::dvec3& from, const glm::dvec3& to, const scene::Sun& sun) const {
+    const double distance = glm::length(to - from);
+    if (!atmosphere_ || !(distance > 0.0)) return {};
+    const Air& air = atmosphere_->air();
+    const AirPoint start = atmosphere_->at(from, (to - from) / distance, sun.directionTo);
+    const AirLight light = atmosphere_->along(start, distance);
+    const glm::dvec3 above = atmosphere_->sunAbove(), none(0.0);
+    return {glm::max(air.rgb(light.light(air, start.toSun)), none) * (sun.irradiance / above),
+            glm::max(air.rgb(light.transmittance), none) / above};
+}
+
+bool Environment::isDark(const scene::Sun& sun) const {
+    const glm::dvec3& light = atmosphere_ ? sun.irradiance : radiance_;
+    return !(light.x > 0.0 || light.y > 0.0 || light.z > 0.0);
 }
 
 EnvironmentSample Environment::sample(const glm::dvec2& u) const {
@@ -15,22 +54,10 @@ EnvironmentSample Environment::sample(const glm::dvec2& u) const {
     return {{across * std::cos(azimuth), height, across * std::sin(azimuth)}, radiance_, 0.25 * std::numbers::inv_pi};
 }
 
-glm::dvec3 Environment::sunTransmittance(const glm::dvec3&, const glm::dvec3&) const {
-    return glm::dvec3(1.0);
-}
-
-AerialPerspective Environment::between(const glm::dvec3&, const glm::dvec3&) const {
-    return {};
-}
-
 glm::dvec3 Environment::fluxThrough(const glm::dmat3& faceArea) const {
     double area = 0.0;
     for (int axis = 0; axis < 3; ++axis) area += 2.0 * glm::length(faceArea[axis]);
     return radiance_ * (std::numbers::pi * area);
-}
-
-bool Environment::isDark() const {
-    return !(radiance_.x > 0.0 || radiance_.y > 0.0 || radiance_.z > 0.0);
 }
 
 }  // namespace lumulus::sky

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
+#include <optional>
 
 #include "scene/scene.h"
 #include "shared/environment.h"
+#include "sky/atmosphere.h"
 
 namespace lumulus::sky {
 
@@ -20,30 +23,41 @@ struct AerialPerspective {
     glm::dvec3 transmittance{1.0};  ///< per channel
 };
 
-/// What surrounds the world. Everybody who needs light of the sky asks here and nowhere else. Its first kind is
-/// constant: the same radiance from everywhere, without air. Lengths are metres, directions unit vectors.
+/// What surrounds the world. Everybody who needs light of the sky asks here and nowhere else. A constant sky has the
+/// same radiance from everywhere, and no air; an atmosphere is lit by the sun, whose irradiance counts above the air.
+/// Lengths are metres, directions unit vectors.
 class Environment {
   public:
-    Environment(const scene::Sky& sky) : radiance_(sky.radiance) {}  // implicit: a scene's sky is an environment
+    /// Makes the tables of an atmosphere. `angularDiameter`: of the sun, degrees.
+    Environment(const scene::Sky& sky, const std::optional<scene::Ground>& ground = {}, double angularDiameter = 0.53);
 
-    /// Radiance that arrives from a direction [W/(m² sr)].
-    glm::dvec3 radiance(const glm::dvec3& direction) const;
-    /// The radiance if it is the same from everywhere, as filters of pictures need to know; here it always is.
-    const glm::dvec3& uniformRadiance() const { return radiance_; }
-    /// A direction, drawn by two numbers in [0,1).
-    EnvironmentSample sample(const glm::dvec2& u) const;
-    /// Share of the sun's light that the air lets through to a point, by channel.
+    /// The air, or null where the sky is constant.
+    const Atmosphere* atmosphere() const { return atmosphere_.get(); }
+
+    /// Radiance that arrives at a point from a direction, without the sun's disc [W/(m² sr)].
+    glm::dvec3 radiance(const glm::dvec3& point, const glm::dvec3& direction, const scene::Sun& sun) const;
+    /// Mean of the radiance over all directions.
+    glm::dvec3 meanRadiance(const glm::dvec3& point, const scene::Sun& sun) const;
+    /// Share of the sun's light that the air lets through to a point, by channel, with the part of the disc that the
+    /// ground hides.
     glm::dvec3 sunTransmittance(const glm::dvec3& point, const glm::dvec3& directionTo) const;
     /// What the air does along the ray segment between two points.
-    AerialPerspective between(const glm::dvec3& from, const glm::dvec3& to) const;
+    AerialPerspective between(const glm::dvec3& from, const glm::dvec3& to, const scene::Sun& sun) const;
+    /// Whether no light comes from it, with this sun.
+    bool isDark(const scene::Sun& sun) const;
+
+    // Of a constant sky.
+
+    /// A direction, drawn by two numbers in [0,1).
+    EnvironmentSample sample(const glm::dvec2& u) const;
     /// Flux [W] into a box through all its faces; `faceArea` holds the area vectors of one of each pair of them [m²].
     glm::dvec3 fluxThrough(const glm::dmat3& faceArea) const;
-    bool isDark() const;
-
+    /// For shaders; black where the sky is an atmosphere, which passes of its own show.
     shared::EnvironmentParams params() const { return {glm::vec3(radiance_)}; }
 
   private:
     glm::dvec3 radiance_;
+    std::shared_ptr<const Atmosphere> atmosphere_;  ///< immutable; shared by copies
 };
 
 }  // namespace lumulus::sky

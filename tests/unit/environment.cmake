@@ -1,1 +1,4 @@
 lumulus_test(environment_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/environment_test.cpp LINK lumulus_sky)
+lumulus_test(atmosphere_test
+  SOURCES ${CMAKE_CURRENT_LIST_DIR}/atmosphere_test.cpp ${CMAKE_CURRENT_LIST_DIR}/atmosphere_balance_test.cpp
+  LINK lumulus_sky)

@@ -31,6 +31,9 @@ std::string companionOf(const Key& key) {
         if (name != "longitude") others += "longitude = 15.0\n";
         return others;
     }
+    const std::set<std::string_view> ofAir{"sky.preset", "sky.aerosol_depth", "sky.angstrom", "sky.ozone",
+                                           "sky.ground_albedo"};
+    if (ofAir.contains(key.name)) return "model = \"atmosphere\"\n";
     if (name == "droplet_diameter") return "phase.model = \"droplet\"\n";
     if (name == "falloff" || name == "direction" || name == "offset") return "kind = \"exponential\"\n";
     if (name == "center" || name == "radius") return "kind = \"sphere\"\n";

@@ -39,6 +39,7 @@ namespace spirv {
 #include "spirv/fog/split.comp.h"
 #include "spirv/frame/background.comp.h"
 #include "spirv/frame/read_band.comp.h"
+#include "spirv/frame/sky.comp.h"
 #include "spirv/frame/sun_pixels.comp.h"
 #include "spirv/gpu/shaders/layout.comp.h"
 #include "spirv/light/light_cells.comp.h"

@@ -6,6 +6,7 @@
 
 #include "frame/background.h"
 #include "frame/sun_cover.h"
+#include "frame/sun_disc.h"
 
 namespace lumulus::frame {
 namespace {

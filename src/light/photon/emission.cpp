@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "light/photon/air_light.h"
+
 namespace lumulus::photon {
 
 double luminance(const glm::dvec3& rgb) {
@@ -20,14 +22,28 @@ glm::dvec3 Emission::skyPower(std::uint64_t photons) const {
     return sunShare < 1.0 ? skyFlux / (static_cast<double>(photons) * (1.0 - sunShare)) : glm::dvec3(0.0);
 }
 
-Emission makeEmission(const scene::Sun& sun, const sky::Environment& environment, const glm::dmat3& faceArea) {
+namespace {
+
+Emission sharedOut(const scene::Sun& sun, const glm::dvec3& skyFlux, const glm::dmat3& faceArea) {
     Emission emission;
     double projected = 0.0;
     for (int axis = 0; axis < 3; ++axis) projected += std::abs(glm::dot(faceArea[axis], sun.directionTo));
     emission.sunFlux = sun.irradiance * projected;
-    emission.skyFlux = environment.fluxThrough(faceArea);
+    emission.skyFlux = skyFlux;
     const double both = luminance(emission.sunFlux) + luminance(emission.skyFlux);
     emission.sunShare = both > 0.0 ? luminance(emission.sunFlux) / both : 0.0;
+    return emission;
+}
+
+}  // namespace
+
+Emission makeEmission(const scene::Sun& sun, const sky::Environment& environment, const glm::dmat3& faceArea) {
+    return sharedOut(sun, environment.fluxThrough(faceArea), faceArea);
+}
+
+Emission makeEmission(const scene::Sun& sun, const AirLight& air, const glm::dmat3& faceArea) {
+    Emission emission = sharedOut(sun, air.skyFlux, faceArea);
+    emission.skyPeak = air.skyPeak;
     return emission;
 }
 

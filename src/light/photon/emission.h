@@ -16,6 +16,7 @@ struct Emission {
     double sunShare = 0.0;    ///< of the photons, by luminous power
     glm::dvec3 sunFlux{0.0};  ///< through the cloud's box [W]
     glm::dvec3 skyFlux{0.0};
+    double skyPeak = 1.0;  ///< largest weight of a photon of the sky
     bool dark() const { return sunFlux + skyFlux == glm::dvec3(0.0); }
 
     /// Sun photons in a generation of `photons`: the share, rounded up or down with the right probability by `u` in
@@ -28,6 +29,10 @@ struct Emission {
 
 /// Light that enters a box whose faces have these area vectors [m²] (one of each pair).
 Emission makeEmission(const scene::Sun& sun, const sky::Environment& environment, const glm::dmat3& faceArea);
+
+struct AirLight;
+/// The same under an atmosphere; `sun` has the most of it that reaches the box.
+Emission makeEmission(const scene::Sun& sun, const AirLight& air, const glm::dmat3& faceArea);
 
 /// Area vectors [m²] of the faces across x, y and z of a box of `size` voxels with the given edges (columns) [m]. They
 /// point the way of the edges, in a mirrored volume too.

@@ -77,7 +77,7 @@ GenerationTracer::GenerationTracer(gpu::Context& context, const cloud::Asset& cl
       invocations_(invocationsFor(context, options.photonsPerGeneration)),
       recordCapacity_(capacityFor(options.photonsPerGeneration, invocations_)),
       faceArea_(faceAreas(cloud.voxelToMetres, glm::dvec3(cloud.size))),
-      traceProgram_(context, "trace", traceSpirv(), traceConstants(medium.tables, medium.albedo, false)),
+      traceProgram_(context, "trace", traceSpirv(), traceConstants(medium.tables, medium.albedo, false, options.air)),
       scanProgram_(context, "scan", spirv::scan_comp),
       scatterProgram_(context, "scatter", spirv::scatter_comp),
       gatherProgram_(context, "gather", spirv::gather_comp, {SpecConstant::of(0, options.bands)}),
@@ -94,8 +94,20 @@ GenerationTracer::GenerationTracer(gpu::Context& context, const cloud::Asset& cl
       sorted_(context, "sorted records", std::uint64_t{invocations_} * recordCapacity_ * sizeof(glm::uvec3),
               Memory::device),
       inverseCdf_(context, "inverse cdf", medium.tables.inverseCdf.size() * sizeof(float), Memory::device),
+      skyCells_(context, "sky cells", options.air ? sky::SkyMaps::cells * sizeof(shared::SkyCell) : 0, Memory::host),
+      sunColours_(
+          context, "sun colours",
+          options.air ? std::uint64_t{shared::SUN_COLOUR_COLUMNS} * shared::SUN_COLOUR_ROWS * sizeof(glm::vec3) : 0,
+          Memory::host),
       commands_(context) {
     if (!medium.tables.inverseCdf.empty()) gpu::upload(context, inverseCdf_, medium.tables.inverseCdf);
+}
+
+void GenerationTracer::setAir(const AirLight& air) {
+    std::ranges::copy(air.cells, skyCells_.mapped<shared::SkyCell>().begin());
+    std::ranges::copy(air.sunColours, sunColours_.mapped<glm::vec3>().begin());
+    airPlace_ = air.place;
+    skyAxes_ = glm::mat3(air.skyAxes);
 }
 
 shared::TraceParams GenerationTracer::traceParams(const Emission& emission, const scene::Sun& sun, double extinction,
@@ -137,6 +149,8 @@ shared::TraceParams GenerationTracer::traceParams(const Emission& emission, cons
     p.estimatorEdge = options_.estimates.edge;
     p.estimatorCells = options_.estimates.cells;
     p.axisBase = p.estimatorBase + shared::estimatorCounts(options_.estimates.cells);
+    p.air = airPlace_;
+    p.skyAxes = skyAxes_;
     return p;
 }
 
@@ -183,6 +197,8 @@ void GenerationTracer::round(const gpu::Buffer& coefficients) {
                         {"RecordCounts", recordCounts_},
                         {"CollectorCounts", collectorCounts_},
                         {"Counters", counters_},
+                        {"SkyCells", skyCells_},
+                        {"SunColours", sunColours_},
                         {"CollisionEstimates", coefficients}},
                        {}, linearGroups(invocations_, 64));
     commands_.barrier("records");

@@ -8,6 +8,7 @@
 #include "cloud/asset.h"
 #include "gpu/commands.h"
 #include "gpu/program.h"
+#include "light/photon/air_light.h"
 #include "light/photon/emission.h"
 #include "light/photon/photon_map.h"
 #include "shared/photon.h"
@@ -40,6 +41,9 @@ class GenerationTracer {
                std::uint32_t number, const gpu::Buffer& coefficients, Counters& counters,
                std::uint64_t& unsettledRecords, PassLog& log, const CutOff& cutOff);
 
+    /// Light of an atmosphere for the generations from now on; for a tracer that was made with `options.air`.
+    void setAir(const AirLight& air);
+
     /// Lowers the photons of the generations from now on. `photons` is at least 1 and at most what it was.
     void setPhotons(std::uint64_t photons) { options_.photonsPerGeneration = photons; }
 
@@ -56,6 +60,9 @@ class GenerationTracer {
     gpu::Program<shared::GatherPush> scanProgram_, scatterProgram_, gatherProgram_;
     gpu::Buffer params_, states_, records_, recordCounts_, collectorCounts_, counters_;
     gpu::Buffer cursors_, chunkOffsets_, gatherArguments_, sorted_, inverseCdf_;
+    gpu::Buffer skyCells_, sunColours_;  ///< of an atmosphere; a few bytes where there is none
+    shared::AirPlace airPlace_{};
+    glm::mat3 skyAxes_{1.0F};
     gpu::Commands commands_;
 
     shared::TraceParams traceParams(const Emission& emission, const scene::Sun& sun, double extinction,

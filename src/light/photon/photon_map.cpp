@@ -131,7 +131,7 @@ PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Asset& preparedCl
 /// The unit of a generation's records, and with the first that has light, that of the sum.
 int PhotonMap::State::unitExponentFor(const Emission& emission, const scene::Sun& sun) {
     const double most = std::max(glm::compMax(emission.sunPower(options.photonsPerGeneration)),
-                                 glm::compMax(emission.skyPower(options.photonsPerGeneration)));
+                                 glm::compMax(emission.skyPower(options.photonsPerGeneration)) * emission.skyPeak);
     if (!sums.hasUnit()) sums.setUnit(exponentAbove(greatestFlux(sun, emission, tracer.faceArea())) - unitBits);
     const int unitExponent = exponentAbove(most / static_cast<double>(shared::POWER_UNITS));
     const int finer = -sums.shiftOf(unitExponent);
@@ -163,10 +163,12 @@ void PhotonMap::trace(const scene::Sun& sun, const sky::Environment& environment
 }
 
 bool PhotonMap::tryTrace(const scene::Sun& sun, const sky::Environment& environment, const CutOff& cutOff,
-                         std::optional<double> extinction) {
+                         std::optional<double> extinction, const AirLight* air) {
     State& s = *state_;
     s.newExtinction = extinction.value_or(s.medium.extinction);
-    const Emission emission = makeEmission(sun, environment, s.tracer.faceArea());
+    const glm::dmat3& faces = s.tracer.faceArea();
+    const Emission emission = air != nullptr ? makeEmission(sun, *air, faces) : makeEmission(sun, environment, faces);
+    if (air != nullptr) s.tracer.setAir(*air);
     s.before = State::Before{s.flux, s.sunDirection, s.counters};
     s.flux = luminance(emission.sunFlux + emission.skyFlux);
     s.sunDirection = -sun.directionTo;

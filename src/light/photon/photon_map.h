@@ -12,6 +12,7 @@
 #include "base/interrupt.h"
 #include "cloud/asset.h"
 #include "gpu/commands.h"
+#include "light/photon/air_light.h"
 #include "medium/scattering_medium.h"
 #include "scene/scene.h"
 #include "sky/environment.h"
@@ -36,6 +37,7 @@ struct Options {
     /// noisy a picture of all is. Not with a ring.
     bool splitGenerations = false;
     std::uint64_t memoryBudget = std::uint64_t{1} << 30U;  ///< bytes for all coefficients
+    bool air = false;                                      ///< whether the light is that of an atmosphere
     /// Asked between the rounds of a generation, and may throw. Then a map with a ring has the light of before; one
     /// without is of no more use.
     Check check = stopIfInterrupted;
@@ -78,9 +80,11 @@ class PhotonMap {
 
     /// Traces one generation that `cutOff` may end. Returns whether it was finished; else nothing is left of it. A
     /// finished one waits for keep() or drop(), and the map has the light of before until then. Without a ring, the
-    /// first that may be cut off beside others takes the memory of one generation more until they are settled.
+    /// first that may be cut off beside others takes the memory of one generation more until they are settled. `air`:
+    /// the light of an atmosphere in the cloud, for a map that was made for it; `sun` then has the most that reaches
+    /// it.
     bool tryTrace(const scene::Sun& sun, const sky::Environment& environment, const CutOff& cutOff,
-                  std::optional<double> extinction = {});
+                  std::optional<double> extinction = {}, const AirLight* air = nullptr);
     /// Takes the generation of tryTrace() into the oldest slot.
     void keep();
     /// Takes the generation of tryTrace() out again; does nothing where there is none.

@@ -139,6 +139,8 @@ class Layer {
                             {"RecordCounts", recordCounts_},
                             {"CollectorCounts", collectorCounts_},
                             {"Counters", counters_},
+                            {"SkyCells", inverseCdf_},
+                            {"SunColours", inverseCdf_},
                             {"CollisionEstimates", counters_}},
                            {}, gpu::linearGroups(lanes, 64));
         commands_.submit();

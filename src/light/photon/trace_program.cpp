@@ -18,11 +18,14 @@ std::span<const std::uint32_t> traceSpirv() {
 }
 
 std::vector<gpu::SpecConstant> traceConstants(const phase::ScatteringTables& tables, const glm::dvec3& albedo,
-                                              bool periodic) {
+                                              bool periodic, bool air) {
     const bool absorbs = std::min(albedo.x, std::min(albedo.y, albedo.z)) < 1.0;
-    return {gpu::SpecConstant::of(0, tables.analyticHg), gpu::SpecConstant::of(1, tables.forwardFraction > 0.0F),
-            gpu::SpecConstant::of(2, absorbs), gpu::SpecConstant::of(3, periodic),
-            gpu::SpecConstant::of(4, !periodic && !tables.axisTable.empty())};
+    return {gpu::SpecConstant::of(0, tables.analyticHg),
+            gpu::SpecConstant::of(1, tables.forwardFraction > 0.0F),
+            gpu::SpecConstant::of(2, absorbs),
+            gpu::SpecConstant::of(3, periodic),
+            gpu::SpecConstant::of(4, !periodic && !tables.axisTable.empty()),
+            gpu::SpecConstant::of(5, air)};
 }
 
 void setFaces(shared::TraceParams& p, const glm::dmat3& faceArea) {
