@@ -22,6 +22,7 @@
 #include "cli/reference.h"
 #include "cli/render.h"
 #include "cli/serve.h"
+#include "cli/sky.h"
 #include "cli/slab.h"
 #include "cli/threads.h"
 
@@ -219,6 +220,19 @@ void addSlab(CLI::App& app, SlabOptions& options, Action& action) {
     command->callback([&options, &action] { action = [&options] { runSlab(options); }; });
 }
 
+void addSky(CLI::App& app, SkyOptions& options, Action& action) {
+    CLI::App* command = app.add_subcommand("sky", "Show where sun and moon stand and the light of a scene's sky");
+    command->add_option("scene", options.scene, "Scene file (TOML) or - for standard input; default: an empty scene");
+    command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
+        ->allow_extra_args(false);
+    command->add_flag("--json", options.json, "As JSON");
+    command->footer(
+        "Example:\n  lumulus sky --set sky.model=atmosphere --set time.utc=2026-06-21T10:00:00Z --set "
+        "time.latitude=50.1 "
+        "--set time.longitude=14.4");
+    command->callback([&options, &action] { action = [&options] { runSky(options); }; });
+}
+
 void addBench(CLI::App& app, BenchOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("bench", "Measure error against run time of render and of the path tracer");
     command->add_option("scene", options.scene, sceneHelp)->required();
@@ -320,6 +334,7 @@ void parseAndRun(int argc, const char* const* argv) {
     CompareOptions compare;
     CompositeOptions composite;
     BenchOptions bench;
+    SkyOptions sky;
     SlabOptions slab;
     ServeOptions serve;
     FetchOptions fetch;
@@ -333,6 +348,7 @@ void parseAndRun(int argc, const char* const* argv) {
     addCompare(app, compare, action);
     addComposite(app, composite, action);
     addBench(app, bench, action);
+    addSky(app, sky, action);
     addSlab(app, slab, action);
     addServe(app, serve, action);
     addFetch(app, fetch, action);

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "base/atomic_file.h"
+#include "base/display_transform.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -40,6 +41,7 @@ bool statsToFile(const RenderOptions& options) {
 void checkOutputs(const RenderOptions& options) {
     std::vector<std::filesystem::path> outputs = options.outputs;
     for (const auto& output : outputs) requireSuffix(output, {".exr", ".png"});
+    DisplayTransform::ofEnvironment();
     if (statsToFile(options)) outputs.emplace_back(options.stats);
     checkPlaces(outputs);
 }

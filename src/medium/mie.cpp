@@ -16,9 +16,11 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr std::size_t lanes = 8;      // angles that are summed together
-constexpr double closestSizes = 0.6;  // of the size parameter: interference between rays is resolved
-constexpr std::size_t mostSizes = 400, fewestSizes = 100;
+constexpr std::size_t lanes = 8;  // angles that are summed together
+/// Distance of size parameters at which the glory is good to 3 %: it comes from narrow resonances. Large droplets have
+/// so many of them that fewer sizes do.
+constexpr double closestSizes = 0.15;
+constexpr double fewestSizes = 350.0, mostWork = 1e5;
 
 /// The coefficients of one sphere as sums over n need them: factor (a+b), factor (a−b), real and imaginary.
 struct Sphere {
@@ -57,7 +59,8 @@ Sphere sphereOf(double size, double index, double weight) {
 std::vector<Sphere> spheresOf(double size, double variance, double index) {
     const auto [low, high] = rangeOf(variance);
     const double extent = size * (high - low);
-    const auto count = std::clamp(static_cast<std::size_t>(extent / closestSizes), fewestSizes, mostSizes);
+    const double most = std::max(fewestSizes, mostWork / size);
+    const auto count = static_cast<std::size_t>(std::clamp(extent / closestSizes, fewestSizes, most));
     const double step = (high - low) / static_cast<double>(count);
     std::vector<Sphere> spheres(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {

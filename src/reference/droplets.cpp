@@ -68,18 +68,17 @@ Series seriesOf(double x, double index, double weight) {
     return series;
 }
 
-/// Simpson's rule over the radii of n(r) ~ r^((1−3v)/v) e^(−r/(v r_eff)), in units of the effective radius.
+/// The trapezoid rule over the radii of n(r) ~ r^((1−3v)/v) e^(−r/(v r_eff)), in units of the effective radius: it
+/// vanishes at both ends.
 std::vector<Series> spheres(double x, double index, double variance) {
     const double width = std::sqrt(variance);
     const double from = std::max(0.04, 1.0 - 4.2 * width), to = 1.0 + 6.5 * width + 3.0 * variance;
-    const auto half = std::clamp<std::size_t>(static_cast<std::size_t>(x * (to - from)), 100, 450);
-    const std::size_t steps = 2 * half;
+    const auto steps = static_cast<std::size_t>(std::clamp(9.0 * x * (to - from), 600.0, std::max(700.0, 1.5e5 / x)));
     std::vector<Series> all(steps + 1);
     tbb::parallel_for(std::size_t{0}, steps + 1, [&](std::size_t i) {
         const double r = from + (to - from) * static_cast<double>(i) / static_cast<double>(steps);
-        const double simpson = i == 0 || i == steps ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
         const double power = (1.0 - 3.0 * variance) / variance;
-        all[i] = seriesOf(r * x, index, simpson * std::exp(power * std::log(r) - (r - 1.0) / variance));
+        all[i] = seriesOf(r * x, index, std::exp(power * std::log(r) - (r - 1.0) / variance));
     });
     return all;
 }

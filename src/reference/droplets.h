@@ -12,7 +12,7 @@ struct Droplets {
 };
 
 /// The reference's own Mie theory: coefficients by ratios of Riccati–Bessel functions (Du 2004) instead of logarithmic
-/// derivatives, and Simpson's rule over the radii. `radius` (effective, µm) and `variance` of a gamma distribution.
+/// derivatives, and the trapezoid rule over the radii. `radius` (effective, µm) and `variance` of a gamma distribution.
 Droplets makeDroplets(double radius, double variance);
 
 }  // namespace lumulus::reference

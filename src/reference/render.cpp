@@ -7,6 +7,7 @@
 
 #include "reference/fingerprint.h"
 #include "reference/ground.h"
+#include "scene/ephemeris.h"
 #include "scene/phase_table_file.h"
 
 namespace lumulus::reference {
@@ -72,6 +73,7 @@ std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::Pl
     Fingerprint print;
     print.add(seed).add(majorant).add(scene.sun.angularDiameter);
     addVector(print, scene.sun.directionTo);
+    if (scene.sun.refraction) print.add(scene.sun.refraction);
     addVector(print, scene.sun.irradiance);
     addVector(print, scene.sky.radiance);
     addCamera(print, camera);
@@ -94,7 +96,8 @@ Renderer::Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolum
       skyUnit_(tracer_.skyUnit()),
       discUnit_(tracer_.discUnit()),
       background_(scene.image.background),
-      discCover_(camera_, tracer_.sun().direction(), tracer_.sunny() ? tracer_.sun().radius() : 0.0),
+      discCover_(camera_, scene.sun.refraction ? scene::apparentDirection(scene.sun) : tracer_.sun().direction(),
+                 tracer_.sunny() ? tracer_.sun().radius() : 0.0),
       seed_(seed),
       fingerprint_(fingerprintOf(scene, volumes, camera_, majorant, seed)) {
     film_.width = scene.image.width;

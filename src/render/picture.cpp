@@ -8,8 +8,20 @@
 #include "frame/background.h"
 #include "frame/sun_disc.h"
 #include "render/view_light.h"
+#include "scene/ephemeris.h"
 
 namespace lumulus {
+
+namespace {
+
+/// The sun as its disc is seen.
+scene::Sun shownSun(const World& world) {
+    scene::Sun sun = world.lights.sun;
+    sun.directionTo = scene::apparentDirection(sun);
+    return sun;
+}
+
+}  // namespace
 
 void PictureOrder::drawLight(ViewState::State& state, photon::Part part) {
     painter->findShown(work.context, world, state);
@@ -61,7 +73,7 @@ LayeredImage PictureOrder::throughFog(ViewState::State& state, const Tile& wante
 
 /// Adds what is behind the clouds: ground and sun.
 void PictureOrder::finish(LayeredImage& image, ViewState::State& state) {
-    std::vector<shared::SunPixel> sun = frame::sunPixels(state.camera, state.tile, world.lights.sun);
+    std::vector<shared::SunPixel> sun = frame::sunPixels(state.camera, state.tile, shownSun(world));
     if (ground != nullptr) {
         const auto seen = surface::seenGround(state.camera, state.tile, ground->light(work.context, world, check));
         surface::hideSun(sun, seen, state.tile.width);
@@ -72,7 +84,7 @@ void PictureOrder::finish(LayeredImage& image, ViewState::State& state) {
 
 /// The same where there is fog. The tile is the whole picture, and the ground a layer of its own.
 LayeredImage PictureOrder::finishInFog(ViewState::State& state, const Tile& wanted) {
-    std::vector<shared::SunPixel> sun = frame::sunPixels(state.camera, state.tile, world.lights.sun);
+    std::vector<shared::SunPixel> sun = frame::sunPixels(state.camera, state.tile, shownSun(world));
     if (ground == nullptr) {
         if (!sun.empty()) work.run([&](gpu::Commands& commands) { state.frame->recordSun(commands, sun); });
         return throughFog(state, wanted);
@@ -93,7 +105,7 @@ LayeredImage PictureOrder::finishInFog(ViewState::State& state, const Tile& want
 LayeredImage PictureOrder::finished(ViewState::State& state, const Tile& wanted) {
     if (world.lights.environment.atmosphere() != nullptr) drawAtmosphere(state);
     const std::vector<shared::SunPixel> sun =
-        frame::sunPixels(state.camera, state.tile, world.lights.sun, world.lights.environment.atmosphere());
+        frame::sunPixels(state.camera, state.tile, shownSun(world), world.lights.environment.atmosphere());
     if (!sun.empty()) work.run([&](gpu::Commands& commands) { state.frame->recordSun(commands, sun); });
     if (fog != nullptr) return throughFog(state, wanted);
     return state.frame->download(work.commands, {0, 0, state.tile.width, state.tile.height}, work.times);

@@ -109,6 +109,14 @@ double refraction(double elevation) {
     return 1.02 / (60.0 * std::tan(glm::radians(elevation + 10.3 / (elevation + 5.11))));
 }
 
+glm::dvec3 apparentDirection(const Sun& sun) {
+    const glm::dvec3& to = sun.directionTo;
+    if (!sun.refraction) return to;
+    const double elevation = glm::degrees(std::asin(std::clamp(to.y, -1.0, 1.0)));
+    const double azimuth = glm::degrees(std::atan2(to.x, -to.z));
+    return skyDirection(azimuth, std::min(elevation + refraction(elevation), 90.0));
+}
+
 double moonShare(double phaseAngle) {
     const double angle = std::abs(phaseAngle), square = angle * angle;
     const double magnitude = -12.73 + 0.026 * angle + 4e-9 * square * square;

@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/sky.h"
 #include "scene/utc.h"
 
 /// Where sun and moon stand (Meeus 1998, "Astronomical Algorithms"). Angles in degrees, unless a name says otherwise.
@@ -49,6 +50,9 @@ SunAndMoon sunAndMoonAt(const Utc& utc, const Place& place);
 /// Degrees by which the air at 1010 hPa and 10 °C lifts what stands at a true elevation; 0 well below the horizon (Reda
 /// and Andreas 2004, "Solar Position Algorithm", eq. 42).
 double refraction(double elevation);
+
+/// Where the sun's disc is seen: towards the sun, or higher by `refraction` where the scene asks for that.
+glm::dvec3 apparentDirection(const Sun& sun);
 
 /// Illuminance of the moon over that of the sun, both outside of the air: by the magnitude
 /// −12.73 + 0.026 |α| + 4e−9 α⁴ of the moon at the phase angle α (Allen; Krisciunas and Schaefer 1991) and −26.74 of

@@ -75,4 +75,12 @@ void finishSunAndMoon(Draft& draft, const Settings& settings) {
     finishMoon(draft);
 }
 
+void finishSunDistance(Draft& draft, const Settings& settings) {
+    Scene& scene = draft.scene;
+    if (!scene.time || scene.sky.model != SkyModel::atmosphere || settings.find("sun.irradiance") != nullptr) return;
+    const double distance =
+        sunAndMoonAt(utcOf(*scene.time, settings), {scene.time->latitude, scene.time->longitude}).sun.distance;
+    scene.sun.irradiance /= distance * distance;
+}
+
 }  // namespace lumulus::scene

