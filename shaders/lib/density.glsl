@@ -10,6 +10,12 @@ float densityOf(sampler3D density, ivec3 voxel, ivec3 size) {
     return inside ? texelFetch(density, voxel, 0).r : 0.0;
 }
 
+/// The same in an atlas, where the volume begins at `origin`.
+float densityOf(sampler3D density, ivec3 voxel, ivec3 size, ivec3 origin) {
+    const bool inside = all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, size));
+    return inside ? texelFetch(density, origin + voxel, 0).r : 0.0;
+}
+
 /// One of the eight voxels around a place, each with its weight in the interpolation between them: one look-up then has
 /// the mean of the interpolated density. That is exact where only the mean counts, as for whether a collision is real.
 ivec3 voxelNear(vec3 voxel, vec2 u) {

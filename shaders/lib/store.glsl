@@ -35,15 +35,19 @@ void addToAxis(TraceParams params, uint collector, vec3 direction, vec3 power) {
         atomicAdd(estimates[place + uint(channel)], int64_t(roundEven(COEFFICIENT_SCALE * power[channel])));
 }
 
-/// Light of this power [record units] that travels in a direction, at a place, as record number `place`. False: no
-/// collector is there, and nothing is left.
-bool store(TraceParams params, vec3 voxel, vec3 direction, vec3 power, bool ofSun, uint place) {
-    const uint collector = texelFetch(collectorIndex, ivec3(min(voxel, params.size - 0.5)), 0).r;
-    if (collector >= params.collectors) return false;
+/// Light of this power [record units] that travels in a direction, at a voxel of a collector, as record number `place`.
+void storeAt(TraceParams params, uint collector, vec3 voxel, vec3 direction, vec3 power, bool ofSun, uint place) {
     records[place] = PhotonRecord(collector, packDirection(direction), packPower(power));
     if (params.estimatorEdge > 0) addEstimate(params, voxel, direction, COEFFICIENT_SCALE * luminance(power));
     if (AXIS && ofSun) addToAxis(params, collector, direction, power);
     atomicAdd(collectorCounts[collector], 1u);
+}
+
+/// The same, whichever collector is there. False: none is, and nothing is left.
+bool store(TraceParams params, vec3 voxel, vec3 direction, vec3 power, bool ofSun, uint place) {
+    const uint collector = texelFetch(collectorIndex, ivec3(min(voxel, params.size - 0.5)), 0).r;
+    if (collector >= params.collectors) return false;
+    storeAt(params, collector, voxel, direction, power, ofSun, place);
     return true;
 }
 

@@ -66,28 +66,38 @@ Walk makeWalk(ivec3 cell, vec3 offset, vec3 velocity, float depth) {
 /// Optical depth to the next tentative collision; u in [0,1).
 float opticalDepth(float u) { return -log(1.0 - u); }
 
-/// Goes on to the next collision or cell face. `majorant` is that of the walk's cell [1/m], or where it is negative
-/// the distance, in cells, to the nearest cell that is not empty: all nearer ones are crossed at once. A periodic grid
-/// goes on for ever in x and z. At a collision the walk stays where it was: stepToCollision() goes there.
-uint walkStep(inout Walk walk, float majorant, ivec3 cells, bool periodic) {
-    const float reach = max(-majorant - 1.0, 0.0);
+/// Goes on to the next collision, or out of the walk's cell and so many on each side of it, which all have this majorant
+/// [1/m]. At a collision the walk stays where it was: stepToCollision() goes there.
+uint leaveBox(inout Walk walk, float majorant, vec3 below, vec3 above) {
     const bvec3 ahead = greaterThan(walk.velocity, vec3(0.0));
-    const vec3 face = mix(vec3(-reach), vec3(1.0 + reach), ahead);
+    const vec3 face = mix(-below, 1.0 + above, ahead);
     const vec3 distances =
         mix((face - walk.offset) * walk.slowness, vec3(3.4e38), equal(walk.velocity, vec3(0.0)));
     const float nearest = max(min(distances.x, min(distances.y, distances.z)), 0.0);
-    const float crossing = max(majorant, 0.0) * nearest;
+    const float crossing = majorant * nearest;
     if (walk.depth < crossing) return WALK_COLLISION;
     walk.depth -= crossing;
     const vec3 end = walk.offset + walk.velocity * nearest;
     const bvec3 met = bvec3(distances.x <= nearest, distances.x > nearest && distances.y <= nearest,
                             distances.x > nearest && distances.y > nearest);
-    const vec3 passed = mix(clamp(floor(end), -reach, reach), mix(vec3(-1.0 - reach), vec3(1.0 + reach), ahead), met);
+    const vec3 passed = mix(clamp(floor(end), -below, above), mix(-1.0 - below, 1.0 + above, ahead), met);
     walk.offset = mix(clamp(end - passed, 0.0, 1.0), 1.0 - vec3(ahead), met);
     walk.cell += ivec3(passed);
+    return WALK_CROSSED;
+}
+
+bool isInside(Walk walk, ivec3 cells) {
+    return all(greaterThanEqual(walk.cell, ivec3(0))) && all(lessThan(walk.cell, cells));
+}
+
+/// Goes on to the next collision or cell face. `majorant` is that of the walk's cell [1/m], or where it is negative
+/// the distance, in cells, to the nearest cell that is not empty: all nearer ones are crossed at once. A periodic grid
+/// goes on for ever in x and z. At a collision the walk stays where it was.
+uint walkStep(inout Walk walk, float majorant, ivec3 cells, bool periodic) {
+    const vec3 reach = vec3(max(-majorant - 1.0, 0.0));
+    if (leaveBox(walk, max(majorant, 0.0), reach, reach) == WALK_COLLISION) return WALK_COLLISION;
     if (periodic) walk.cell.xz = (walk.cell.xz + cells.xz) % cells.xz;
-    const bool inside = all(greaterThanEqual(walk.cell, ivec3(0))) && all(lessThan(walk.cell, cells));
-    return inside ? WALK_CROSSED : WALK_LEFT;
+    return isInside(walk, cells) ? WALK_CROSSED : WALK_LEFT;
 }
 
 /// To the collision that walkStep() found in a cell of this majorant.

@@ -31,7 +31,7 @@ void main() {
                 const ivec3 voxel = EDGE * cell + ivec3(x, y, z);
                 const float mass = densityOf(density, voxel, push.size);
                 if (mass > 0.0) {
-                    const uint collector = texelFetch(collectorIndex, voxel, 0).r;
+                    const uint collector = push.firstCollector + texelFetch(collectorIndex, voxel, 0).r;
                     light += mass * imageLoad(radiance, collectorTexel(collector));
                     colour += mass * imageLoad(colours, collectorTexel(collector)).rgb;
                 }

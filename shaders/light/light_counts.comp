@@ -77,7 +77,7 @@ void main() {
                 const ivec3 voxel = EDGE * cell + ivec3(x, y, z);
                 const float here = densityOf(density, voxel, push.size);
                 if (here > 0.0) {
-                    const uint collector = texelFetch(collectorIndex, voxel, 0).r;
+                    const uint collector = push.firstCollector + texelFetch(collectorIndex, voxel, 0).r;
                     light += here * imageLoad(fluences, collectorTexel(collector));
                     mass += here;
                 }

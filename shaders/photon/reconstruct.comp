@@ -12,14 +12,16 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const int BANDS = 5;
 layout(constant_id = 1) const bool AXIS = false;  // the sun's light is counted in rings about its axis too
+layout(constant_id = 2) const bool MEDIA = false;  // collectors lie in different media
 
 layout(binding = 0, scalar) readonly buffer Sum { int64_t sum[]; };
-layout(binding = 1, scalar) readonly buffer Moments { float moments[]; };      // of the phase function, by band
+layout(binding = 1, scalar) readonly buffer Moments { float moments[]; };  // of each phase function, by band, then its scale of angles
 layout(binding = 2, scalar) readonly buffer Collectors { vec4 collectors[]; };  // centre, mass [m²]
 layout(binding = 3) uniform writeonly image2D fluences;  // of luminance, per unit of the leaf's ∫ σt' dV: flux, fluence
 layout(binding = 4) uniform writeonly image2D radiance;
 layout(binding = 5) uniform writeonly image2D colours;  // RGB fluence, per unit of the leaf's ∫ σt' dV
 layout(binding = 6, scalar) readonly buffer AxisTable { float axisTable[]; };  // what a ring scatters, by ring and angle
+layout(binding = 7, scalar) readonly buffer Media { uint media[]; };  // of each collector, where they differ
 layout(push_constant, scalar) uniform Push { ReconstructPush push; };
 
 /// Light of a ring, in counts.
@@ -29,11 +31,13 @@ vec3 ringLight(uint collector, int ring) {
 }
 
 /// What the rings about one end of the axis scatter towards a direction at that angle to it, by the bands above.
-vec3 scatteredByRings(uint collector, int first, ScatterAngle angle) {
-    const TableCell cell = tableCell(angleToAxis(angle, push.angleScale), singleScatterAngleCount);
+vec3 scatteredByRings(uint collector, uint medium, int first, ScatterAngle angle) {
+    const float scale = MEDIA ? moments[medium * uint(BANDS + 1) + uint(BANDS)] : push.angleScale;
+    const TableCell cell = tableCell(angleToAxis(angle, scale), singleScatterAngleCount);
+    const int table = int(medium) * AXIS_RINGS * singleScatterAngleCount;
     vec3 scattered = vec3(0.0);
     for (int ring = 0; ring < AXIS_RINGS; ++ring) {
-        const int entry = ring * singleScatterAngleCount + cell.base;
+        const int entry = table + ring * singleScatterAngleCount + cell.base;
         scattered += ringLight(collector, first + ring) * mix(axisTable[entry], axisTable[entry + 1], cell.fraction);
     }
     return scattered;
@@ -50,15 +54,16 @@ void main() {
     shEvaluate(BANDS, direction, y);
     const int COUNT = BANDS * BANDS;
     const uint base = collector * uint(3 * COUNT);
+    const uint medium = MEDIA ? media[collector] : 0u;
     vec3 total = vec3(0.0);
     for (int l = 0; l < BANDS; ++l)
         for (int i = l * l; i < (l + 1) * (l + 1); ++i) {
             const vec3 coefficient = vec3(sum[base + uint(i)], sum[base + uint(COUNT + i)], sum[base + uint(2 * COUNT + i)]);
-            total += (moments[l] * y[i]) * coefficient;
+            total += (moments[medium * uint(BANDS + 1) + uint(l)] * y[i]) * coefficient;
         }
     if (AXIS) {
-        total += scatteredByRings(collector, 0, angleBetween(push.sunDirection, direction));
-        total += scatteredByRings(collector, AXIS_RINGS, angleBetween(-push.sunDirection, direction));
+        total += scatteredByRings(collector, medium, 0, angleBetween(push.sunDirection, direction));
+        total += scatteredByRings(collector, medium, AXIS_RINGS, angleBetween(-push.sunDirection, direction));
     }
     const vec3 mean = vec3(sum[base], sum[base + uint(COUNT)], sum[base + uint(2 * COUNT)]);
     const float unit = push.scale / place.w;

@@ -17,6 +17,7 @@ layout(constant_id = 1) const bool FORWARD_CUT = false;  // the forward peak is 
 layout(constant_id = 2) const bool ABSORBS = false;     // an albedo below 1
 layout(constant_id = 3) const bool PERIODIC = false;    // a plane-parallel layer across y
 layout(constant_id = 4) const bool AXIS = false;        // the phase function has a backward peak
+layout(constant_id = 5) const bool GROUND = false;      // there is a ground below the cloud
 #include "lib/store.glsl"
 
 layout(binding = 0) uniform sampler3D density;
@@ -25,17 +26,14 @@ layout(binding = 3, r32f) uniform readonly image3D majorants;  // normalised; ne
 layout(binding = 4, scalar) readonly buffer InverseCdf { float inverseCdf[]; };
 layout(binding = 5, scalar) buffer States { TraceState states[]; };
 layout(binding = 7, scalar) buffer RecordCounts { uint recordCounts[]; };  // of each invocation
-layout(binding = 9, scalar) buffer Counters { TraceCounters counters; };
 
 /// Cells that a photon may cross before the lanes that have met something go on.
 const int CROSSINGS = 16;
 
 // Held in registers: a load from a buffer costs a loop over the lanes on lavapipe, in every step.
 TraceParams params;
-
-vec4 draw(inout TraceState state) {
-    return rngUniform4(uvec4(state.photon, state.draws++, params.generation, params.stream));
-}
+#include "lib/photon.glsl"
+#include "lib/ground.glsl"
 
 ScatterAngle samplePhase(float u) {
     if (ANALYTIC_PHASE) return sampleHg(params.asymmetry, u, params.scatterFraction);
@@ -50,15 +48,8 @@ float densityNear(vec3 voxel, vec2 u) {
     return densityOf(density, near, ivec3(params.size));
 }
 
-/// Multiplies the weight; where that lowers its largest channel, Russian roulette keeps it up. False: absorbed.
-bool survives(inout TraceState state, vec3 factor, float u) {
-    const float before = max(state.weight.x, max(state.weight.y, state.weight.z));
-    state.weight *= factor;
-    const float after = max(state.weight.x, max(state.weight.y, state.weight.z));
-    if (!(u * before < after)) return false;
-    state.weight *= before / after;
-    return true;
-}
+/// Of the photon's light, before its weight.
+vec3 powerOf(TraceState state) { return state.photon < params.sunPhotons ? params.sunPower : params.skyPower; }
 
 /// A real collision. False: the photon has ended. `scatters`: whether it goes on in another direction.
 bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint count, out bool scatters) {
@@ -73,19 +64,6 @@ bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint c
     }
     ++state.scatterings;
     return !ABSORBS || survives(state, params.albedo, u.y);
-}
-
-/// A photon that has not entered yet.
-void startPhoton(inout TraceState state) {
-    state.draws = 0u;
-    state.collisions = 0u;
-    state.scatterings = 0u;
-    state.alive = 1u;
-}
-
-void endPhoton(inout TraceState state) {
-    state.alive = 0u;
-    state.photon += params.invocations;
 }
 
 /// A new direction: at a scattering event, or of a photon that enters. One rotation for both: on a CPU all lanes pay for what one
@@ -105,20 +83,7 @@ void newDirection(inout TraceState state, inout Walk walk, bool enters, vec4 u, 
         walk.cell = clamp(ivec3(floor(point)), ivec3(0), params.cells - 1);
         walk.offset = clamp(point - vec3(walk.cell), 0.0, 1.0);
         state.weight = vec3(weight);
-    }
-}
-
-void addCounts(uint events, uint nulls, uint absorbed, uint escaped, uint lost, uint recorded, uvec3 sides) {
-    atomicAdd(counters.events, uint64_t(events));
-    atomicAdd(counters.nulls, uint64_t(nulls));
-    atomicAdd(counters.absorbed, uint64_t(absorbed));
-    atomicAdd(counters.escaped, uint64_t(escaped));
-    atomicAdd(counters.lost, uint64_t(lost));
-    atomicAdd(counters.records, uint64_t(recorded));
-    if (PERIODIC) {
-        atomicAdd(counters.reflected, uint64_t(sides.x));
-        atomicAdd(counters.transmittedDiffuse, uint64_t(sides.y));
-        atomicAdd(counters.transmittedDirect, uint64_t(sides.z));
+        if (GROUND && !ofSun) state.weight *= skyOrGround(point, state.direction);
     }
 }
 
@@ -142,6 +107,7 @@ void main() {
         const bool enters = event == WALK_LEFT;
         if (enters) {
             if (state.alive != 0u) {
+                if (GROUND && state.collisions > 0u && bounce(state, walk, powerOf(state))) continue;
                 ++escaped;
                 if (PERIODIC) ++sides[walk.cell.y >= params.cells.y ? 0 : (state.collisions > 0u ? 1 : 2)];
                 endPhoton(state);

@@ -126,8 +126,9 @@ struct LightFieldPush {
     int edge;    // of a cell, voxels
     vec3 eye;    // voxel coordinates
     mat3 voxelToWorld;
-    uint occupied;  // cells with density, the first of the list
-    uint lit;       // cells of the list
+    uint occupied;        // cells with density, the first of the list
+    uint lit;             // cells of the list
+    uint firstCollector;  // of the instance, among those of all
 };
 
 /// What photons counted in its cells, against what their collectors have there.
@@ -142,6 +143,7 @@ struct LightCountsPush {
     float photon;          // mean luminance of a photon [W]
     float moment;          // of the phase function, of band 1
     uint occupied;         // cells with density, the first of the list
+    uint firstCollector;   // of the instance, among those of all
 };
 
 #ifdef __cplusplus
@@ -155,8 +157,8 @@ static_assert(sizeof(InterpolatePush) == 32 && offsetof(InterpolatePush, blocks)
 static_assert(sizeof(Pixel) == 16 * PIXEL_TEXELS && offsetof(Pixel, unused) == 40);
 static_assert(sizeof(ShadowVolumePush) == 80 && offsetof(ShadowVolumePush, firstRow) == 76);
 static_assert(sizeof(BillboardMeanPush) == 52 && offsetof(BillboardMeanPush, spheres) == 48);
-static_assert(sizeof(LightFieldPush) == 84 && offsetof(LightFieldPush, lit) == 80);
-static_assert(sizeof(LightCountsPush) == 64 && offsetof(LightCountsPush, occupied) == 60);
+static_assert(sizeof(LightFieldPush) == 88 && offsetof(LightFieldPush, firstCollector) == 84);
+static_assert(sizeof(LightCountsPush) == 68 && offsetof(LightCountsPush, firstCollector) == 64);
 #endif
 
 SHARED_END

@@ -42,7 +42,26 @@ struct CopyVolumePush {
     ivec3 origin;
 };
 
+/// A cloud that may stand between another cloud and the sun: how its shadow volume is found from a texel of the
+/// other's.
+struct Occluder {
+    mat3 texelToTexel;  // texel number of the shaded volume → texel coordinates of this one's
+    vec3 offset;
+    vec3 origin;  // of its volume in the atlas
+    vec3 size;    // texels
+};
+
+/// The shadow volume of one instance, with what stands before it.
+struct SharedShadowPush {
+    ivec3 size;    // texels
+    ivec3 origin;  // in the atlas
+    uint first;    // of its occluders, itself among them
+    uint occluders;
+};
+
 #ifdef __cplusplus
+static_assert(sizeof(Occluder) == 72 && offsetof(Occluder, size) == 60);
+static_assert(sizeof(SharedShadowPush) == 32 && offsetof(SharedShadowPush, occluders) == 28);
 static_assert(sizeof(InstanceParams) == 276 && offsetof(InstanceParams, shadowSize) == 264);
 static_assert(sizeof(AtlasParams) == 36 && offsetof(AtlasParams, shadow) == 24);
 static_assert(sizeof(CopyVolumePush) == 24 && offsetof(CopyVolumePush, origin) == 12);

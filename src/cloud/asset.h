@@ -65,6 +65,7 @@ struct Asset {
     gpu::Image collectorIndex;  ///< number of the collector of each voxel; the format's largest value: none
     MajorantGrid majorants;     ///< that photons walk through: a single one or one a cell
     gpu::Image majorantImage;
+    MajorantGrid blocks;                  ///< one a block; only where PrepareOptions asks for it
     MajorantGrid cells;                   ///< one a cell always: where a march finds empty space
     std::optional<gpu::Image> cellImage;  ///< none where photons walk through the same cells
     std::vector<Sample> samples;
@@ -80,6 +81,7 @@ struct PrepareOptions {
     scene::Majorant majorant = scene::Majorant::automatic;
     double reducedExtinction = 0.0;  ///< σt'(1−g') at the field's maximum [1/m]
     std::uint32_t seed = 1;
+    bool keepBlocks = false;  ///< whether the asset keeps the majorants of blocks, for cloud::mergeGrids()
 };
 
 /// Steps 1 to 5 of the preparation: gradient, samples, kD-tree, leaf statistics, collectors. The volume must not

@@ -10,17 +10,17 @@
 
 namespace lumulus::cloud {
 
-/// One image that holds the volumes of several instances, each in a slot of the largest one's size with a texel of
-/// nothing around it, so that a shader which goes from instance to instance binds one resource. Volumes are copied.
+/// One image that holds the volumes of several instances, each with a texel of nothing beside it, so that a
+/// shader which goes from instance to instance binds one resource. Volumes are copied.
 class Atlas {
   public:
-    /// Slots for volumes of these extents; a volume that stands in the list twice has one slot.
+    /// Room for volumes of these extents; a volume that stands in the list twice has one place.
     /// Errors: Error where the image is above the device's limits.
     Atlas(gpu::Context& context, const char* name, std::span<const gpu::Image* const> volumes, VkFormat format);
 
     /// Records the copies.
     void record(gpu::Commands& commands, std::span<const gpu::Image* const> volumes) const;
-    /// Whether the volumes still fit into the slots.
+    /// Whether the volumes still have the extents that there is room for.
     bool holds(std::span<const gpu::Image* const> volumes) const;
 
     const gpu::Image& image() const { return *image_; }
@@ -29,8 +29,7 @@ class Atlas {
     glm::vec3 inverseSize() const { return 1.0F / glm::vec3(image_->extent()); }
 
   private:
-    glm::ivec3 slot_{1};
-    std::vector<glm::ivec3> origins_;
+    std::vector<glm::ivec3> origins_, extents_;  ///< of each volume
     std::optional<gpu::Image> image_;
     gpu::Program<shared::CopyVolumePush> program_;
 };

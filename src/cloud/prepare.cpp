@@ -260,20 +260,22 @@ Asset prepare(gpu::Context& context, const vdb::PlacedVolume& placed, const Prep
                        (options.majorant == scene::Majorant::automatic && single.nullCollisions >= globalMajorantLimit);
     const MajorantGrid& grid = local ? cells : single;
     times.leaves = watch.lap();
-    return Asset{volume.size,
-                 voxelToMetres,
-                 voxelVolume,
-                 quantised.format,
-                 std::move(density),
-                 std::move(index),
-                 grid,
-                 majorantImage(context, grid),
-                 cells,
-                 local ? std::nullopt : std::optional(majorantImage(context, cells)),
-                 std::move(samples),
-                 std::move(tree),
-                 std::move(collectors),
-                 times};
+    return Asset{
+        volume.size,
+        voxelToMetres,
+        voxelVolume,
+        quantised.format,
+        std::move(density),
+        std::move(index),
+        grid,
+        majorantImage(context, grid),
+        options.keepBlocks ? majorantGrid(blocks.majorants, blocks.count, volume.size, 1, mass) : MajorantGrid{},
+        cells,
+        local ? std::nullopt : std::optional(majorantImage(context, cells)),
+        std::move(samples),
+        std::move(tree),
+        std::move(collectors),
+        times};
 }
 
 }  // namespace lumulus::cloud

@@ -51,10 +51,12 @@ cloud::CellGrid lightGrid(const cloud::Asset& cloud, std::uint64_t photons) {
 }
 
 LightCells::LightCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
-                       const cloud::CellGrid& estimates)
+                       const cloud::CellGrid& estimates, const glm::dmat3& voxelToMetres, std::uint32_t firstCollector)
     : asset_(&asset),
       grid_(grid),
       estimatorGrid_(estimates),
+      voxelToMetres_(voxelToMetres),
+      firstCollector_(firstCollector),
       massProgram_(context, "light_mass", spirv::light_mass_comp),
       countsProgram_(context, "light_counts", spirv::light_counts_comp, {gpu::SpecConstant::of(0, grid_.edge)}),
       cellsProgram_(context, "light_cells", spirv::light_cells_comp, {gpu::SpecConstant::of(0, grid_.edge)}),
@@ -89,6 +91,8 @@ shared::LightFieldPush LightCells::push() const {
     push.size = asset_->size;
     push.grid = grid_.cells;
     push.edge = grid_.edge;
+    push.voxelToWorld = glm::mat3(voxelToMetres_);
+    push.firstCollector = firstCollector_;
     return push;
 }
 
@@ -109,6 +113,7 @@ void LightCells::recordCounts(gpu::Commands& commands, const gpu::Image& fluence
     values.photon = static_cast<float>(estimates.photonPower);
     values.moment = static_cast<float>(estimates.moment);
     values.occupied = lit_.occupied;
+    values.firstCollector = firstCollector_;
     commands.pass("light counts");
     commands.dispatch(countsProgram_,
                       {{"density", asset_->density, gpu::Sampler::nearest},
@@ -128,7 +133,6 @@ void LightField::record(gpu::Commands& commands, const LightCells& of, const glm
     const cloud::Asset& asset = of.asset();
     shared::LightFieldPush values = of.push();
     values.eye = eyeVoxel;
-    values.voxelToWorld = glm::mat3(asset.voxelToMetres);
     values.occupied = of.lit_.occupied;
     values.lit = static_cast<std::uint32_t>(of.lit_.numbers.size());
     commands.pass("light field");

@@ -29,7 +29,12 @@ class LightCells {
   public:
     /// The cells of `estimates` are those of `grid` or finer. `asset` must outlive it.
     LightCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
-               const cloud::CellGrid& estimates);
+               const cloud::CellGrid& estimates)
+        : LightCells(context, asset, grid, estimates, asset.voxelToMetres, 0) {}
+    /// The same for an instance whose voxels have these edges in the world [m], and whose collectors begin with this
+    /// number among those of all instances.
+    LightCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
+               const cloud::CellGrid& estimates, const glm::dmat3& voxelToMetres, std::uint32_t firstCollector);
 
     /// Records the collision estimates against the collectors' fluences.
     void recordCounts(gpu::Commands& commands, const gpu::Image& fluences, const CollisionEstimates& estimates) const;
@@ -45,6 +50,8 @@ class LightCells {
 
     const cloud::Asset* asset_;
     cloud::CellGrid grid_, estimatorGrid_;
+    glm::dmat3 voxelToMetres_;
+    std::uint32_t firstCollector_;
     gpu::Program<shared::LightFieldPush> massProgram_;
     gpu::Program<shared::LightCountsPush> countsProgram_;
     gpu::Program<shared::LightFieldPush> cellsProgram_, smoothProgram_;

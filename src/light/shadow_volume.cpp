@@ -39,13 +39,14 @@ bool isFlat(const glm::dmat3& voxelToMetres) {
 
 /// Columns of a sheared grid: two voxel axes, and the light from one layer of voxels to the next along the third, the
 /// one along which it crosses the most. Texels are as fine as the voxels, whatever their shape.
-ShadowGrid layeredGrid(const cloud::Asset& cloud, const glm::dvec3& sunTravel, double most, int reduction) {
-    const glm::dvec3 travel = glm::inverse(cloud.voxelToMetres) * sunTravel;
+ShadowGrid layeredGrid(const glm::dvec3& size, const glm::dmat3& voxelToMetres, const glm::dvec3& sunTravel,
+                       double most, int reduction) {
+    const glm::dvec3 travel = glm::inverse(voxelToMetres) * sunTravel;
     int along = 0;
     for (int axis = 1; axis < 3; ++axis)
         if (std::abs(travel[axis]) > std::abs(travel[along])) along = axis;
     const int axes[2] = {(along + 1) % 3, (along + 2) % 3};
-    const glm::dvec3 layer = travel / std::abs(travel[along]), size(cloud.size);
+    const glm::dvec3 layer = travel / std::abs(travel[along]);
     glm::dvec3 extent(0.0, 0.0, size[along]), origin(0.0);
     origin[along] = travel[along] > 0.0 ? 0.0 : size[along];
     glm::dmat3 columns(0.0);
@@ -64,26 +65,27 @@ ShadowGrid layeredGrid(const cloud::Asset& cloud, const glm::dvec3& sunTravel, d
     grid.size = glm::ivec3(glm::ceil(extent / texel)) + 1;
     grid.gridToVoxel = columns * texel;
     grid.originVoxel = origin;
-    grid.spacing = texel * glm::length(cloud.voxelToMetres * layer);
+    grid.spacing = texel * glm::length(voxelToMetres * layer);
     return grid;
 }
 
 }  // namespace
 
-ShadowGrid makeShadowGrid(const cloud::Asset& cloud, const glm::dvec3& sunTravel, double maxTexels, int reduction) {
-    if (isFlat(cloud.voxelToMetres)) return layeredGrid(cloud, sunTravel, maxTexels, reduction);
+ShadowGrid makeShadowGrid(const glm::ivec3& voxels, const glm::dmat3& voxelToMetres, const glm::dvec3& sunTravel,
+                          double maxTexels, int reduction) {
+    const glm::dvec3 size(voxels);
+    if (isFlat(voxelToMetres)) return layeredGrid(size, voxelToMetres, sunTravel, maxTexels, reduction);
     const glm::dmat3 frame = lightFrame(sunTravel);
-    const glm::dmat3 voxelToLight = glm::transpose(frame) * cloud.voxelToMetres;
+    const glm::dmat3 voxelToLight = glm::transpose(frame) * voxelToMetres;
     glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p =
-            voxelToLight * (glm::dvec3(corner & 1, (corner >> 1) & 1, corner >> 2) * glm::dvec3(cloud.size));
+        const glm::dvec3 p = voxelToLight * (glm::dvec3(corner & 1, (corner >> 1) & 1, corner >> 2) * size);
         lower = glm::min(lower, p);
         upper = glm::max(upper, p);
     }
     const glm::dvec3 extent = upper - lower;
     ShadowGrid grid;
-    const double finest = std::cbrt(cloud.voxelVolume);
+    const double finest = std::cbrt(std::abs(glm::determinant(voxelToMetres)));
     const double coarsest = std::cbrt(extent.x * extent.y * extent.z / maxTexels);
     const double widest = std::max(extent.x, std::max(extent.y, extent.z)) / mostAcross;
     grid.spacing = reduction * std::max(finest, std::max(coarsest, widest));
@@ -94,11 +96,14 @@ ShadowGrid makeShadowGrid(const cloud::Asset& cloud, const glm::dvec3& sunTravel
     return grid;
 }
 
-ShadowVolume::ShadowVolume(gpu::Context& context, const cloud::Asset& cloud)
-    : context_(context), cloud_(cloud), program_(context, "shadow_volume", spirv::shadow_volume_comp) {}
+ShadowVolume::ShadowVolume(gpu::Context& context, const cloud::Asset& cloud, const glm::dmat3& voxelToMetres)
+    : context_(context),
+      cloud_(cloud),
+      voxelToMetres_(voxelToMetres),
+      program_(context, "shadow_volume", spirv::shadow_volume_comp) {}
 
 void ShadowVolume::lay(Filled& filled, const glm::dvec3& sunTravel, double extinction, int reduction) {
-    filled.grid = makeShadowGrid(cloud_, sunTravel, maxTexels, reduction);
+    filled.grid = makeShadowGrid(cloud_.size, voxelToMetres_, sunTravel, maxTexels, reduction);
     filled.step = static_cast<float>(extinction * filled.grid.spacing);
     filled.rows = 0;
     if (!filled.image || filled.image->extent() != filled.grid.size)

@@ -17,15 +17,20 @@ struct ShadowGrid {
     double spacing = 0.0;         ///< metres between texels along the light
 };
 
-/// A grid that covers the cloud's box, as fine as its voxels where that stays within `maxTexels`, or `reduction` times
-/// as coarse. Texels are cubes; where voxels are not, the grid is sheared along the light and has their shape.
-ShadowGrid makeShadowGrid(const cloud::Asset& cloud, const glm::dvec3& sunTravel, double maxTexels, int reduction = 1);
+/// A grid that covers a box of so many voxels, as fine as its voxels where that stays within `maxTexels`, or
+/// `reduction` times as coarse. Texels are cubes; where voxels are not, the grid is sheared along the light and has
+/// their shape.
+ShadowGrid makeShadowGrid(const glm::ivec3& voxels, const glm::dmat3& voxelToMetres, const glm::dvec3& sunTravel,
+                          double maxTexels, int reduction = 1);
 
-/// Optical depth towards the sun through the whole cloud. Made anew for each direction of the sun; not at all for a
-/// scene without one.
+/// Optical depth towards the sun through the whole cloud, and no other. Made anew for each direction of the sun; not at
+/// all for a scene without one.
 class ShadowVolume {
   public:
-    ShadowVolume(gpu::Context& context, const cloud::Asset& cloud);
+    /// `voxelToMetres`: edges of a voxel as they lie in the world, of an instance of the cloud.
+    ShadowVolume(gpu::Context& context, const cloud::Asset& cloud, const glm::dmat3& voxelToMetres);
+    ShadowVolume(gpu::Context& context, const cloud::Asset& cloud)
+        : ShadowVolume(context, cloud, cloud.voxelToMetres) {}
 
     /// Records what fills the grid. `extinction` is σt at density 1 [1/m]. The work falls with the third power of
     /// `reduction`.
@@ -39,6 +44,7 @@ class ShadowVolume {
 
     /// Valid after record().
     const gpu::Image& image() const { return *shown_.image; }
+    const ShadowGrid& grid() const { return shown_.grid; }
     /// Voxel coordinates → texture coordinates of the grid.
     glm::mat3 voxelToTexture() const;
     glm::vec3 textureOffset() const;
@@ -56,6 +62,7 @@ class ShadowVolume {
 
     gpu::Context& context_;
     const cloud::Asset& cloud_;
+    const glm::dmat3 voxelToMetres_;
     gpu::Program<shared::ShadowVolumePush> program_;
     Filled shown_, next_;
 };

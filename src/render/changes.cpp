@@ -79,6 +79,7 @@ bool sharpenShadows(GpuWork& work, World& world, double share) {
         work.run([&](gpu::Commands& commands) {
             if (!light.shadow->recordPart(commands, share)) return;
             light.shadowReduction = 1;
+            ++light.shadowVersion;
             light.sharpening = false;
         });
         return shadowReduction(world) == 1;

@@ -20,15 +20,6 @@ Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& d
       phase_(makePhaseTables(context, world, features_.grey, phaseTables_)),
       none_(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT),
       noSquares_(draw::noSquares(context)) {
-    if (features_.many) {
-        densities_.emplace(context, "density atlas", densitiesOf(world), densityFormat(world));
-        majorants_.emplace(context, "majorant atlas", majorantsOf(world), VK_FORMAT_R32_SFLOAT);
-        GpuWork work(context);
-        work.run([&](gpu::Commands& commands) {
-            densities_->record(commands, densitiesOf(world));
-            majorants_->record(commands, majorantsOf(world));
-        });
-    }
     if (draw.mode == scene::DrawMode::billboards)
         billboards_.emplace(context, instancesOf(world), features_);
     else
@@ -63,8 +54,9 @@ Tile Painter::shownPart(const World& world, const ViewState::State& view) const 
 
 draw::Volumes Painter::volumes(const World& world, const ViewState::State& view) const {
     if (features_.many)
-        return {densities_->image(), majorants_->image(), view.lightFields ? view.lightFields->image() : none_,
-                view.shadowVolumes ? view.shadowVolumes->image() : none_};
+        return {world.sharedVolumes->densities.image(), world.sharedVolumes->majorants.image(),
+                view.lightFields ? view.lightFields->image() : none_,
+                world.sharedShadow ? world.sharedShadow->image() : none_};
     const std::size_t only = visible_.front();
     const cloud::Asset& asset = *world.instances[only].asset;
     const auto& field = view.instances[only].field;
@@ -86,15 +78,15 @@ shared::InstanceParams Painter::instanceParams(const World& world, const ViewSta
         params.shadowOffset = light.shadow->textureOffset();
     }
     if (!features_.many) return params;
-    params.densityOrigin = glm::vec3(densities_->origin(place));
-    params.cellOrigin = majorants_->origin(place);
+    params.densityOrigin = glm::vec3(world.sharedVolumes->densities.origin(place));
+    params.cellOrigin = world.sharedVolumes->majorants.origin(place);
     if (view.lightFields) {
         params.lightOrigin = glm::vec3(view.lightFields->origin(place));
         const auto& field = view.instances[number].field;
         params.lightSize = field ? glm::vec3(field->image().extent()) : glm::vec3(1.0F);
     }
-    if (view.shadowVolumes) {
-        params.shadowOrigin = glm::vec3(view.shadowVolumes->origin(place));
+    if (world.sharedShadow) {
+        params.shadowOrigin = glm::vec3(world.sharedShadow->origin(place));
         params.shadowSize = light.shadow ? glm::vec3(light.shadow->image().extent()) : glm::vec3(1.0F);
     }
     return params;
@@ -108,9 +100,9 @@ shared::DrawParams Painter::drawParams(const World& world, const ViewState::Stat
     values.light = draw::lightParams(world.lights.sun);
     values.environment = world.lights.environment.params();
     if (features_.many) {
-        values.atlas.density = densities_->inverseSize();
+        values.atlas.density = world.sharedVolumes->densities.inverseSize();
         if (view.lightFields) values.atlas.light = view.lightFields->inverseSize();
-        if (view.shadowVolumes) values.atlas.shadow = view.shadowVolumes->inverseSize();
+        if (world.sharedShadow) values.atlas.shadow = world.sharedShadow->inverseSize();
     }
     values.sampling = draw::samplingGridOf(view.camera, view.shown, view.spacing, tolerance_,
                                            static_cast<double>(static_cast<float>(finest)));
@@ -122,31 +114,23 @@ shared::DrawParams Painter::drawParams(const World& world, const ViewState::Stat
     return values;
 }
 
-/// Light fields and shadow volumes of all instances in one image each.
-void Painter::fillAtlases(GpuWork& work, const World& world, ViewState::State& view) const {
-    std::vector<const gpu::Image*> fields, shadows;
+/// Light fields of all instances in one image.
+void Painter::fillAtlas(GpuWork& work, ViewState::State& view) const {
+    if (!features_.photons) return;
+    std::vector<const gpu::Image*> fields;
     for (const std::size_t i : visible_) {
         const auto& field = view.instances[i].field;
-        const auto& shadow = world.light[i].shadow;
         fields.push_back(field ? &field->image() : &none_);
-        shadows.push_back(shadow ? &shadow->image() : &none_);
     }
-    const auto fit = [&](std::optional<cloud::Atlas>& atlas, const char* name, const auto& images, VkFormat format) {
-        if (atlas && atlas->holds(images)) return;
-        atlas.reset();
-        atlas.emplace(work.context, name, images, format);
-    };
-    if (features_.photons) fit(view.lightFields, "light field atlas", fields, VK_FORMAT_R32G32B32A32_SFLOAT);
-    if (features_.sun) fit(view.shadowVolumes, "shadow volume atlas", shadows, VK_FORMAT_R16_SFLOAT);
-    if (!view.lightFields && !view.shadowVolumes) return;
-    work.run([&](gpu::Commands& commands) {
-        if (view.lightFields) view.lightFields->record(commands, fields);
-        if (view.shadowVolumes) view.shadowVolumes->record(commands, shadows);
-    });
+    if (!view.lightFields || !view.lightFields->holds(fields)) {
+        view.lightFields.reset();
+        view.lightFields.emplace(work.context, "light field atlas", fields, VK_FORMAT_R32G32B32A32_SFLOAT);
+    }
+    work.run([&](gpu::Commands& commands) { view.lightFields->record(commands, fields); });
 }
 
-void Painter::prepare(GpuWork& work, const World& world, ViewState::State& view) const {
-    if (features_.many) fillAtlases(work, world, view);
+void Painter::prepare(GpuWork& work, ViewState::State& view) const {
+    if (features_.many) fillAtlas(work, view);
     view.billboards.reset();
     if (billboards_) view.billboards.emplace(work.context, *billboards_, view.camera);
 }

@@ -29,7 +29,7 @@ class Painter {
     Tile shownPart(const World& world, const ViewState::State& view) const;
 
     /// Sorts and uploads what the camera of the view needs, after lightView() and before paint().
-    void prepare(GpuWork& work, const World& world, ViewState::State& view) const;
+    void prepare(GpuWork& work, ViewState::State& view) const;
     /// Draws bands of rows of the shown part into `image`, or into the view's frame where `image` is null.
     void paint(GpuWork& work, const World& world, ViewState::State& view, const std::vector<draw::Band>& bands,
                LayeredImage* image, const Check& check, const Report& report) const;
@@ -41,7 +41,7 @@ class Painter {
     draw::Volumes volumes(const World& world, const ViewState::State& view) const;
     shared::InstanceParams instanceParams(const World& world, const ViewState::State& view, std::size_t place) const;
     shared::DrawParams drawParams(const World& world, const ViewState::State& view) const;
-    void fillAtlases(GpuWork& work, const World& world, ViewState::State& view) const;
+    void fillAtlas(GpuWork& work, ViewState::State& view) const;
     void recordPixels(gpu::Commands& commands, const draw::DrawInputs& inputs, const ViewState::State& view,
                       const shared::DrawPush& push) const;
     void recordBlocks(gpu::Commands& commands, const draw::DrawInputs& inputs, ViewState::State& view,
@@ -56,7 +56,6 @@ class Painter {
     draw::PhaseTables phase_;
     std::optional<draw::Billboards> billboards_;
     std::optional<draw::March> march_;
-    std::optional<cloud::Atlas> densities_, majorants_;  ///< where several instances are drawn
     gpu::Image none_;  ///< stands for what the scene does not have: shaders never read it, but bindings must be there
     gpu::Buffer noSquares_;
 };

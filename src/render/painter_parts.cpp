@@ -23,26 +23,6 @@ std::vector<const cloud::Instance*> instancesOf(const World& world) {
     return instances;
 }
 
-std::vector<const gpu::Image*> densitiesOf(const World& world) {
-    std::vector<const gpu::Image*> images;
-    for (const cloud::Instance* instance : instancesOf(world)) images.push_back(&instance->asset->density);
-    return images;
-}
-
-std::vector<const gpu::Image*> majorantsOf(const World& world) {
-    std::vector<const gpu::Image*> images;
-    for (const cloud::Instance* instance : instancesOf(world)) images.push_back(&instance->asset->marchedCells());
-    return images;
-}
-
-VkFormat densityFormat(const World& world) {
-    const std::vector<const gpu::Image*> images = densitiesOf(world);
-    const VkFormat first = images.front()->format();
-    return std::ranges::all_of(images, [&](const gpu::Image* image) { return image->format() == first; })
-               ? first
-               : VK_FORMAT_R32_SFLOAT;
-}
-
 draw::PhaseTables makePhaseTables(gpu::Context& context, const World& world, bool grey, std::span<int> numbers) {
     const std::vector<const cloud::Instance*> instances = instancesOf(world);
     std::vector<const phase::ScatteringTables*> media;

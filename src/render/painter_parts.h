@@ -13,10 +13,6 @@ namespace lumulus {
 
 draw::DrawFeatures featuresOf(const World& world);
 std::vector<const cloud::Instance*> instancesOf(const World& world);
-std::vector<const gpu::Image*> densitiesOf(const World& world);
-std::vector<const gpu::Image*> majorantsOf(const World& world);
-/// A format that holds every instance's density without loss.
-VkFormat densityFormat(const World& world);
 
 /// Phase functions of all visible instances. Equal ones share tables: `numbers` becomes the number of each one's.
 draw::PhaseTables makePhaseTables(gpu::Context& context, const World& world, bool grey, std::span<int> numbers);

@@ -14,7 +14,7 @@ struct Entry {
     Stage stage;
 };
 
-constexpr std::array<Entry, 25> entries{{
+constexpr std::array<Entry, 26> entries{{
     {"trace", Stage::photons},
     {"sort", Stage::photons},
     {"gather", Stage::photons},
@@ -24,6 +24,7 @@ constexpr std::array<Entry, 25> entries{{
     {"light field", Stage::light},
     {"billboard means", Stage::light},
     {"shadow volume", Stage::shadowVolume},
+    {"shared shadow", Stage::shadowVolume},
     {"march", Stage::draw},
     {"billboards", Stage::draw},
     {"interpolate", Stage::draw},

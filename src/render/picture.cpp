@@ -11,7 +11,7 @@ namespace lumulus {
 
 void PictureOrder::drawLight(ViewState::State& state, photon::Part part) {
     lightView(work, world, state, part, bands, shadowReduction);
-    painter->prepare(work, world, state);
+    painter->prepare(work, state);
 }
 
 /// The frame as it is without a cloud, but for the part that clouds may be seen in.
@@ -96,11 +96,10 @@ Preview PictureOrder::preview(ViewState::State& state) {
     const std::vector<draw::Band> rows = draw::sampleBands(state.tile);
     for (const draw::Band& band : rows)
         for (int row = 0; row < band.rows; ++row) preview.rows.push_back(band.first + row);
-    for (light::InstanceLight& light : world.light) {
-        light.changed();
-        if (!light.photons) continue;
-        preview.evenGenerations = light.photons->splitCounts().even;
-        preview.oddGenerations = light.photons->splitCounts().odd;
+    for (light::InstanceLight& light : world.light) light.changed();
+    if (world.photons) {
+        preview.evenGenerations = world.photons->splitCounts().even;
+        preview.oddGenerations = world.photons->splitCounts().odd;
     }
     for (const photon::Part part : {photon::Part::even, photon::Part::odd}) {
         const Stopwatch watch;

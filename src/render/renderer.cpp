@@ -86,7 +86,7 @@ Renderer::Renderer(const scene::Scene& scene, const Renderer& other, const Rende
 void Renderer::State::makePainters(const scene::Scene& scene) {
     statistics.device = context.device().name;
     if (!scene.fog.media.empty()) fog.emplace(context, scene.fog, check);
-    if (scene.ground) ground.emplace();
+    if (scene.ground) ground.emplace(keepRing);
     for (const auto& asset : world->assets) statistics.collectors += asset->collectors.size();
     if (!world->visible().empty()) painter.emplace(context, *world, scene.draw);
 }
@@ -104,17 +104,17 @@ void Renderer::traceGeneration() {
 bool Renderer::traceGeneration(const CutOff& cutOff) {
     State& s = *state_;
     const Stopwatch watch;
-    const bool finished = traceAll(*s.world, cutOff);
+    std::optional<photon::Ground> ground;
+    if (s.ground && s.world->photons) ground = s.ground->forPhotons(s.context, *s.world, s.check);
+    const bool finished = traceAll(*s.world, cutOff, ground ? &*ground : nullptr);
     if (finished) ++s.sinceChange;
     s.statistics.traceSeconds += watch.seconds();
     return finished;
 }
 
 std::uint64_t Renderer::shrinkGenerations(std::uint64_t divisor, std::uint64_t fewest) {
-    std::uint64_t photons = 0;
-    for (light::InstanceLight& light : state_->world->light)
-        if (light.photons) photons += light.photons->shrinkGenerations(divisor, fewest);
-    return photons;
+    std::optional<photon::PhotonMap>& photons = state_->world->photons;
+    return photons ? photons->shrinkGenerations(divisor, fewest) : 0;
 }
 
 View Renderer::sceneView() const {
@@ -165,10 +165,9 @@ LayeredImage Renderer::draw(const View& view, ViewState& viewState) {
     const Stopwatch watch;
     s.show(viewState.state(), view);
     s.work.times.clear();
-    for (light::InstanceLight& light : s.world->light) {
-        if (!light.photons) continue;
-        light.photons->settle();
-        frame::addTimes(s.work.times, light.photons->times());
+    if (s.world->photons) {
+        s.world->photons->settle();
+        frame::addTimes(s.work.times, s.world->photons->times());
     }
     PictureOrder order{s.work,
                        *s.world,
@@ -230,12 +229,11 @@ double Renderer::extinction(std::size_t cloud) const {
 
 Generations Renderer::generations() const {
     Generations result;
-    for (const light::InstanceLight& light : state_->world->light) {
-        if (!light.photons) continue;
-        result.first = light.photons->firstInRing();
-        result.count = light.photons->generationsInRing();
+    if (const auto& photons = state_->world->photons) {
+        result.first = photons->firstInRing();
+        result.count = photons->generationsInRing();
         result.current = std::min(result.count, state_->sinceChange);
-        result.photonsEach += light.photons->photonsInRing() / static_cast<std::uint64_t>(std::max(1, result.count));
+        result.photonsEach = photons->photonsInRing() / static_cast<std::uint64_t>(std::max(1, result.count));
     }
     return result;
 }
@@ -280,7 +278,20 @@ bool Renderer::setWind(const glm::dvec3& velocity) {
 }
 
 void Renderer::setTime(double seconds) {
-    setOffset(seconds * state_->world->wind);
+    const glm::dvec3 drift = seconds * state_->world->wind;
+    setOffset(drift);
+    for (const auto& [cloud, way] : state_->moved) setOffset(drift + way, cloud);
+}
+
+bool Renderer::moveCloud(const glm::dvec3& way, std::size_t cloud) {
+    State& s = *state_;
+    const auto place = s.moved.try_emplace(cloud, glm::dvec3(0.0)).first;
+    if (place->second == way) return false;
+    setOffset(s.world->instances.at(cloud).offset + way - place->second, cloud);
+    place->second = way;
+    const bool seen = s.world->visible().size() > 1 || s.ground;
+    if (seen) s.lightChanged();
+    return true;
 }
 
 query::Media Renderer::media() {
@@ -289,8 +300,7 @@ query::Media Renderer::media() {
 
 Statistics Renderer::statistics() const {
     Statistics result = state_->statistics;
-    for (const light::InstanceLight& light : state_->world->light)
-        if (light.photons) addCounters(result, *light.photons);
+    if (state_->world->photons) addCounters(result, *state_->world->photons);
     if (result.lost > 0)
         result.warnings.push_back(std::to_string(result.lost) + " of " + std::to_string(result.photons) +
                                   " photons scattered too often and were given up: their light is missing");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -37,8 +38,9 @@ struct Renderer::State {
     std::optional<Painter> painter;
     std::optional<fog::Fog> fog;
     std::optional<GroundView> ground;
-    int sunAllowed = 1;   ///< reduction of shadow volumes
-    int sinceChange = 0;  ///< generations under the light of now
+    std::map<std::size_t, glm::dvec3> moved;  ///< ways of the clouds that do not lie where the scene has them [m]
+    int sunAllowed = 1;                       ///< reduction of shadow volumes
+    int sinceChange = 0;                      ///< generations under the light of now
     bool keepRing;
     Statistics statistics;
 

@@ -6,13 +6,20 @@ namespace lumulus {
 
 namespace {
 
+/// In the world [m], for what is seen of all clouds together.
+glm::dvec3 eyeOf(const Bounds& bounds, const Camera& camera) {
+    if (camera.projection != scene::Projection::orthographic) return camera.position;
+    return camera.position - camera.axes[2] * (1e5 * 2.0 * bounds.radius());
+}
+
 /// Light cells as fine as the photons of the map ask for, and a field for this view.
-void makeRoom(gpu::Context& context, const cloud::Asset& asset, light::InstanceLight& light, InstanceView& seen) {
-    const auto photons = std::max<std::uint64_t>(1, light.photons->photonsInRing());
-    const cloud::CellGrid grid = light::lightGrid(asset, photons);
+void makeRoom(gpu::Context& context, const World& world, light::InstanceLight& light, InstanceView& seen) {
+    const photon::MapPart& part = world.photons->parts()[*light.part];
+    const auto photons = std::max<std::uint64_t>(1, world.photons->photonsOf(*light.part));
+    const cloud::CellGrid grid = light::lightGrid(*part.asset, photons);
     if (!light.cells || !(grid == light.cells->grid())) {
         light.cells.reset();
-        light.cells.emplace(context, asset, grid, light.estimatorGrid);
+        light.cells.emplace(context, *part.asset, grid, part.estimates, part.voxelToMetres, part.firstCollector);
         light.changed();
     }
     if (seen.field && grid == seen.field->grid()) return;
@@ -21,13 +28,15 @@ void makeRoom(gpu::Context& context, const cloud::Asset& asset, light::InstanceL
     seen.eye.reset();
 }
 
-light::CollisionEstimates estimates(const light::InstanceLight& light, const phase::ScatteringMedium& medium, int bands,
+light::CollisionEstimates estimates(const photon::PhotonMap& photons, std::size_t number, int bands,
                                     const photon::Light& counted) {
-    const photon::PhotonMap& photons = *light.photons;
+    const photon::MapPart& part = photons.parts()[number];
+    const phase::ScatteringTables& tables = part.medium.tables;
     // a backward peak answers a change of direction in all bands at once, of which the first alone says nothing
-    const bool known = bands > 1 && medium.tables.axisTable.empty();
-    const double moment = known ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
-    return {*counted.counts, photons.estimatorBase(), counted.unit, photons.photonPower(), photons.massScale(), moment};
+    const bool known = bands > 1 && tables.axisTable.empty();
+    const double moment = known ? static_cast<double>(tables.bandMoments[1]) : 0.0;
+    return {*counted.counts, part.estimatorBase, counted.unit, photons.photonPower(number), photons.massScale(number),
+            moment};
 }
 
 void recordShadow(gpu::Commands& commands, const cloud::Instance& instance, light::InstanceLight& light,
@@ -35,24 +44,84 @@ void recordShadow(gpu::Commands& commands, const cloud::Instance& instance, ligh
     if (light.shadowReduction != 0 && light.shadowReduction <= reduction) return;
     light.shadow->record(commands, -light.sun.directionTo, instance.medium.extinction, reduction);
     light.shadowReduction = reduction;
+    ++light.shadowVersion;
     light.sharpening = false;
 }
 
-void recordField(gpu::Commands& commands, const cloud::Instance& instance, light::InstanceLight& light,
-                 InstanceView& seen, const glm::vec3& eye, photon::Part part, int bands) {
-    const bool all = part == photon::Part::all;
-    if (all && seen.eye == eye && seen.version == light.version) return;
-    photon::PhotonMap& photons = *light.photons;
-    const photon::Light counted = photons.light(part);
-    photons.reconstruct(commands, eye, counted);
-    commands.barrier("collector radiance");
+/// Shadow volumes with what stands before them.
+void shareShadows(GpuWork& work, World& world) {
+    std::vector<light::Shading> all;
+    for (const std::size_t i : world.visible()) {
+        const light::InstanceLight& light = world.light[i];
+        all.push_back({&world.instances[i], light.shadow ? &*light.shadow : nullptr, light.shadowVersion});
+    }
+    if (world.sharedShadow->isUpToDate(all)) return;
+    work.run(
+        [&](gpu::Commands& commands) { world.sharedShadow->record(commands, all, -world.lights.sun.directionTo); });
+}
+
+/// The light field of one instance, from the collectors of all.
+void recordField(gpu::Commands& commands, const photon::PhotonMap& photons, const photon::Light& counted,
+                 light::InstanceLight& light, InstanceView& seen, const glm::vec3& eye, int bands, bool all) {
     if (!light.counted || !all) {
-        light.cells->recordCounts(commands, photons.fluences(), estimates(light, instance.medium, bands, counted));
+        light.cells->recordCounts(commands, photons.fluences(), estimates(photons, *light.part, bands, counted));
         light.counted = all;
     }
     seen.field->record(commands, *light.cells, eye, photons.radiance(), photons.colours());
     seen.eye = all ? std::optional(eye) : std::nullopt;
     seen.version = light.version;
+}
+
+/// Instances whose light fields are not what the view needs.
+std::vector<std::size_t> oldFields(const World& world, const ViewState::State& view, photon::Part part) {
+    std::vector<std::size_t> numbers;
+    for (const std::size_t i : world.visible()) {
+        const light::InstanceLight& light = world.light[i];
+        const InstanceView& seen = view.instances[i];
+        const bool fits = part == photon::Part::all && seen.version == light.version && seen.eye &&
+                          *seen.eye == eyeVoxel(world.instances[i], view.camera);
+        if (light.part && !fits) numbers.push_back(i);
+    }
+    return numbers;
+}
+
+/// Submissions end after so many instances: commands hold only so many passes.
+constexpr std::size_t atOnce = 128;
+
+void makeFields(GpuWork& work, World& world, ViewState::State& view, photon::Part part, int bands) {
+    const std::vector<std::size_t> old = oldFields(world, view, part);
+    if (old.empty()) return;
+    photon::PhotonMap& photons = *world.photons;
+    const photon::Light counted = photons.light(part);
+    const bool many = photons.parts().size() > 1;
+    for (std::size_t done = 0; done < old.size(); done += atOnce)
+        work.run([&](gpu::Commands& commands) {
+            if (done == 0) {
+                const glm::vec3 eye = many ? glm::vec3(eyeOf(world.bounds, view.camera) - photons.corner())
+                                           : eyeVoxel(world.instances[old.front()], view.camera);
+                photons.reconstruct(commands, eye, counted);
+                commands.barrier("collector radiance");
+            }
+            for (std::size_t k = done; k < std::min(done + atOnce, old.size()); ++k) {
+                const std::size_t i = old[k];
+                recordField(commands, photons, counted, world.light[i], view.instances[i],
+                            eyeVoxel(world.instances[i], view.camera), bands, part == photon::Part::all);
+            }
+        });
+}
+
+void makeShadows(GpuWork& work, World& world, int reduction) {
+    std::vector<std::size_t> old;
+    for (const std::size_t i : world.visible()) {
+        const light::InstanceLight& light = world.light[i];
+        if (light.shadow && (light.shadowReduction == 0 || light.shadowReduction > reduction)) old.push_back(i);
+    }
+    for (std::size_t done = 0; done < old.size(); done += atOnce)
+        work.run([&](gpu::Commands& commands) {
+            for (std::size_t k = done; k < std::min(done + atOnce, old.size()); ++k)
+                recordShadow(commands, world.instances[old[k]], world.light[old[k]], reduction);
+        });
+    if (world.sharedShadow) shareShadows(work, world);
 }
 
 }  // namespace
@@ -66,18 +135,9 @@ glm::vec3 eyeVoxel(const cloud::Instance& instance, const Camera& camera) {
 void lightView(GpuWork& work, World& world, ViewState::State& view, photon::Part part, int bands, int shadowReduction) {
     view.instances.resize(world.instances.size());
     for (const std::size_t i : world.visible())
-        if (world.light[i].photons)
-            makeRoom(work.context, *world.instances[i].asset, world.light[i], view.instances[i]);
-    if (!world.hasShadows() && !world.hasPhotons()) return;
-    work.run([&](gpu::Commands& commands) {
-        for (const std::size_t i : world.visible()) {
-            const cloud::Instance& instance = world.instances[i];
-            light::InstanceLight& light = world.light[i];
-            if (light.shadow) recordShadow(commands, instance, light, shadowReduction);
-            if (light.photons)
-                recordField(commands, instance, light, view.instances[i], eyeVoxel(instance, view.camera), part, bands);
-        }
-    });
+        if (world.light[i].part) makeRoom(work.context, world, world.light[i], view.instances[i]);
+    makeShadows(work, world, shadowReduction);
+    if (world.photons) makeFields(work, world, view, part, bands);
 }
 
 }  // namespace lumulus

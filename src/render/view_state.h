@@ -29,11 +29,11 @@ struct ViewState::State {
     Tile tile;        ///< the part of the picture that is drawn
     Tile shown;       ///< what of the tile the clouds may be seen in: the rest is background
     int raysAcross = 1;
-    int spacing = 1;                      ///< of the points of sparse sampling in pixels; 1: every pixel is drawn
-    int sampledRowsDrawn = 0;             ///< of this picture's points
-    std::vector<InstanceView> instances;  ///< of all instances of the world
-    std::optional<cloud::Atlas> lightFields, shadowVolumes;  ///< where the world has several visible instances
-    std::map<int, draw::Interpolation> interpolations;       ///< by spacing
+    int spacing = 1;                          ///< of the points of sparse sampling in pixels; 1: every pixel is drawn
+    int sampledRowsDrawn = 0;                 ///< of this picture's points
+    std::vector<InstanceView> instances;      ///< of all instances of the world
+    std::optional<cloud::Atlas> lightFields;  ///< where the world has several visible instances
+    std::map<int, draw::Interpolation> interpolations;  ///< by spacing
     std::optional<draw::Billboards::View> billboards;
     std::optional<frame::Frame> frame;  ///< where passes follow the drawing
 };

@@ -6,7 +6,9 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
-#include "light/photon/emission.h"
+#include "light/light_field.h"
+#include "light/photon/ground.h"
+#include "render/importance.h"
 #include "view/camera.h"
 #include "volume/load.h"
 
@@ -25,12 +27,6 @@ phase::ScatteringMedium makeMedium(const scene::Scene& scene, const scene::Cloud
     return medium;
 }
 
-/// Area of the surface of an instance's box [m²]: light that fills the world falls on instances in proportion to it.
-double surfaceArea(const cloud::Instance& instance) {
-    const glm::dmat3 faces = photon::faceAreas(instance.voxelToMetres, glm::dvec3(instance.asset->size));
-    return glm::length(faces[0]) + glm::length(faces[1]) + glm::length(faces[2]);
-}
-
 /// Makes a world step by step.
 class Maker {
   public:
@@ -39,7 +35,7 @@ class Maker {
           scene_(scene),
           options_(options),
           report_(report),
-          world_{scene.fog, {scene.sun, scene.sky, scene.ground}, {}, {}, {}, {}, glm::dvec3(0.0)} {}
+          world_{scene.fog, {scene.sun, scene.sky, scene.ground}, {}, {}, {}, {}, {}, {}, {}, glm::dvec3(0.0)} {}
 
     World make() {
         const Stopwatch loading;
@@ -53,7 +49,7 @@ class Maker {
             world_.light[i].sun = world_.lights.sunAt(world_.instances[i].bounds.centre, world_.fog);
             prepare(i, placed[i]);
         }
-        for (const std::size_t i : world_.visible()) lightUp(i);
+        lightUp();
         if (!placed.empty()) report_.prepareSeconds = preparing.seconds();
         return std::move(world_);
     }
@@ -71,7 +67,7 @@ class Maker {
             instance.offset = glm::dvec3(0.0);
             world_.light[i].sun = world_.lights.sunAt(instance.bounds.centre, world_.fog);
         }
-        for (const std::size_t i : world_.visible()) lightUp(i);
+        lightUp();
         return std::move(world_);
     }
 
@@ -80,7 +76,9 @@ class Maker {
     CloudVolumes load();
     void prepare(std::size_t number, const vdb::PlacedVolume& placed);
     const cloud::Asset* findAsset(std::size_t number, const vdb::Volume* volume, double reducedExtinction) const;
-    void lightUp(std::size_t number);
+    void lightUp();
+    photon::Options photonOptions() const;
+    void makePhotonMap(const std::vector<std::size_t>& visible);
 
     gpu::Context& context_;
     const scene::Scene& scene_;
@@ -137,6 +135,7 @@ void Maker::prepare(std::size_t number, const vdb::PlacedVolume& placed) {
     cloud::PrepareOptions options;
     options.preparation = scene_.preparation;
     options.majorant = scene_.photonMap.majorant;
+    options.keepBlocks = scene_.clouds.size() > 1;
     const double forward = scene_.photonMap.bands > 1 ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
     options.reducedExtinction =
         medium.extinction * static_cast<double>(medium.tables.scatterFraction) * (1.0 - forward);
@@ -155,41 +154,82 @@ void Maker::prepare(std::size_t number, const vdb::PlacedVolume& placed) {
     options_.report("preparing the cloud", 1, 1);
 }
 
-/// What of the instance's light is made beforehand. Photons are shared out by what falls on each instance.
-void Maker::lightUp(std::size_t number) {
-    const cloud::Instance& instance = world_.instances[number];
-    light::InstanceLight& light = world_.light[number];
-    const bool scatters = instance.medium.scatters();
-    if (scatters && world_.lights.hasSun()) light.shadow.emplace(context_, *instance.asset);
-    if (!scatters || world_.lights.isDark()) return;
-    const scene::PhotonMap& wanted = scene_.photonMap;
-    double area = 0.0;
+/// What of the light is made beforehand.
+void Maker::lightUp() {
     const std::vector<std::size_t> visible = world_.visible();
-    for (const std::size_t i : visible) area += surfaceArea(world_.instances[i]);
-    const double share = visible.size() == 1 ? 1.0 : surfaceArea(instance) / area;
+    if (visible.size() > 1) {
+        std::vector<const cloud::Instance*> instances;
+        for (const std::size_t i : visible) instances.push_back(&world_.instances[i]);
+        world_.sharedVolumes = std::make_unique<cloud::SharedVolumes>(cloud::makeSharedVolumes(context_, instances));
+    }
+    bool scatters = false;
+    for (const std::size_t i : visible) {
+        const cloud::Instance& instance = world_.instances[i];
+        const bool shades = visible.size() > 1 || instance.medium.scatters();
+        scatters = scatters || instance.medium.scatters();
+        if (shades && world_.lights.hasSun())
+            world_.light[i].shadow.emplace(context_, *instance.asset, instance.voxelToMetres);
+    }
+    if (visible.size() > 1 && world_.hasShadows()) world_.sharedShadow.emplace(context_);
+    if (scatters && !world_.lights.isDark()) makePhotonMap(visible);
+    stopIfInterrupted();
+}
+
+photon::Options Maker::photonOptions() const {
+    const scene::PhotonMap& wanted = scene_.photonMap;
     const auto generations = static_cast<std::uint64_t>(wanted.generations);
-    const auto photons = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(wanted.photons)));
+    const auto photons = static_cast<std::uint64_t>(wanted.photons);
     const std::uint64_t each = (photons + generations - 1) / generations;
     if (each > 0xF0000000ULL)
         throw InputError("a generation would hold " + std::to_string(each) + " photons, more than 4026531840",
                          "photon_map.photons", "ask for more generations or fewer photons");
-    // progressive: as fine as any number of photons may ask for
-    light.estimatorGrid =
-        light::lightGrid(*instance.asset, options_.progressive ? std::numeric_limits<std::uint64_t>::max() : photons);
     photon::Options options;
     options.photonsPerGeneration = each;
     options.generations = wanted.generations;
     options.firstGeneration = static_cast<std::uint32_t>(wanted.firstGeneration);
     options.bands = wanted.bands;
-    options.seed = wanted.seed + number;
+    options.seed = wanted.seed;
     options.keepRing = options_.keepRing;
+    options.ground = scene_.ground.has_value();
     options.splitGenerations = options_.progressive;
-    options.estimates = light.estimatorGrid;
     options.check = options_.check;
-    options.memoryBudget =
-        static_cast<std::uint64_t>(std::ldexp(wanted.memoryBudget, 20)) / static_cast<std::uint64_t>(visible.size());
-    light.photons.emplace(context_, *instance.asset, instance.medium, options);
-    stopIfInterrupted();
+    options.memoryBudget = static_cast<std::uint64_t>(std::ldexp(wanted.memoryBudget, 20));
+    return options;
+}
+
+/// One map for all that is visible. Photons are shared out by what the picture shows of each instance.
+void Maker::makePhotonMap(const std::vector<std::size_t>& visible) {
+    photon::Options options = photonOptions();
+    const std::vector<double> shares = photonShares(world_, visible, scene_, options_.keepRing);
+    std::vector<photon::MapPart> parts;
+    for (std::size_t k = 0; k < visible.size(); ++k) {
+        const cloud::Instance& instance = world_.instances[visible[k]];
+        const double photons = std::ceil(shares[k] * static_cast<double>(scene_.photonMap.photons));
+        // progressive: as fine as any number of photons may ask for
+        const std::uint64_t most = options_.progressive
+                                       ? std::numeric_limits<std::uint64_t>::max()
+                                       : std::max<std::uint64_t>(1, static_cast<std::uint64_t>(photons));
+        light::InstanceLight& light = world_.light[visible[k]];
+        photon::MapPart part;
+        part.asset = instance.asset;
+        part.medium = instance.medium;
+        part.voxelToMetres = instance.voxelToMetres;
+        part.share = shares[k];
+        part.collects = instance.medium.scatters();
+        if (part.collects) {
+            light.part = k;
+            part.estimates = light::lightGrid(*instance.asset, most);
+        }
+        parts.push_back(std::move(part));
+    }
+    if (visible.size() > 1) {
+        world_.photons.emplace(context_, std::move(parts), *world_.sharedVolumes, options);
+        return;
+    }
+    const photon::MapPart& only = parts.front();
+    options.estimates = only.estimates;
+    options.seed += visible.front();
+    world_.photons.emplace(context_, *only.asset, only.voxelToMetres, only.medium, options);
 }
 
 }  // namespace
@@ -201,13 +241,27 @@ std::vector<std::size_t> World::visible() const {
     return numbers;
 }
 
-bool World::hasPhotons() const {
-    return std::ranges::any_of(light, [](const light::InstanceLight& l) { return l.photons.has_value(); });
-}
-
 bool World::hasShadows() const {
     return std::ranges::any_of(light, [](const light::InstanceLight& l) { return l.shadow.has_value(); });
 }
+
+namespace {
+
+/// Where the instances are now, and what of the sun's light reaches them.
+std::vector<photon::Placement> placements(const World& world, const std::vector<std::size_t>& visible) {
+    std::vector<photon::Placement> places;
+    for (const std::size_t i : visible) {
+        const cloud::Instance& instance = world.instances[i];
+        const glm::dvec3 &reaching = world.light[i].sun.irradiance, &whole = world.lights.sun.irradiance;
+        photon::Placement place{instance.origin + instance.offset, instance.medium.extinction, glm::dvec3(1.0)};
+        for (int channel = 0; channel < 3; ++channel)
+            if (whole[channel] > 0.0) place.sunShare[channel] = reaching[channel] / whole[channel];
+        places.push_back(place);
+    }
+    return places;
+}
+
+}  // namespace
 
 World makeWorld(gpu::Context& context, const scene::Scene& scene, const WorldOptions& options, WorldReport& report) {
     return Maker(context, scene, options, report).make();
@@ -219,27 +273,24 @@ World makeWorldBeside(gpu::Context& context, const scene::Scene& scene, const Wo
     return Maker(context, scene, options, report).makeBeside(other);
 }
 
-bool traceAll(World& world, const CutOff& cutOff) {
-    const auto dropAll = [&world] {
-        for (light::InstanceLight& light : world.light)
-            if (light.photons) light.photons->drop();
-        return false;
-    };
-    try {
-        for (std::size_t i = 0; i < world.light.size(); ++i) {
-            light::InstanceLight& light = world.light[i];
-            const double extinction = world.instances[i].medium.extinction;
-            if (light.photons && !light.photons->tryTrace(light.sun, world.lights.environment, cutOff, extinction))
-                return dropAll();
+bool traceAll(World& world, const CutOff& cutOff, const photon::Ground* ground) {
+    if (world.photons) {
+        const std::vector<std::size_t> visible = world.visible();
+        const cloud::Instance& first = world.instances[visible.front()];
+        scene::Sun sun = world.lights.sun;
+        if (visible.size() > 1)
+            world.photons->place(placements(world, visible));
+        else
+            sun = world.light[visible.front()].sun;
+        if (ground != nullptr) {
+            photon::Ground below = *ground;
+            below.corner = visible.size() > 1 ? world.photons->corner() : first.origin + first.offset;
+            world.photons->setGround(below);
         }
-    } catch (...) {
-        dropAll();
-        throw;
+        if (!world.photons->tryTrace(sun, world.lights.environment, cutOff, first.medium.extinction)) return false;
+        world.photons->keep();
     }
-    for (light::InstanceLight& light : world.light) {
-        if (light.photons) light.photons->keep();
-        light.changed();
-    }
+    for (light::InstanceLight& light : world.light) light.changed();
     return true;
 }
 

@@ -9,8 +9,11 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "cloud/instance.h"
+#include "cloud/shared_volumes.h"
 #include "light/instance_light.h"
 #include "light/light_set.h"
+#include "light/photon/photon_map.h"
+#include "light/shared_shadow.h"
 #include "query/bricks.h"
 #include "scene/scene.h"
 #include "volume/summary.h"
@@ -25,14 +28,19 @@ struct World {
     std::vector<std::shared_ptr<const cloud::Asset>> assets;
     std::vector<cloud::Instance> instances;   ///< one for each cloud of the scene, in its order
     std::vector<light::InstanceLight> light;  ///< of each instance
-    Bounds bounds;                            ///< of all instances, without their offsets
-    glm::dvec3 wind{0.0};                     ///< velocity with which all instances drift [m/s]
+    /// Where several instances are drawn: the volumes of their assets, in the order of visible().
+    std::unique_ptr<cloud::SharedVolumes> sharedVolumes;
+    std::optional<photon::PhotonMap> photons;  ///< of all instances; none where no photon would be of use
+    /// Where several instances are lit by the sun: shadow volumes with what stands before them.
+    std::optional<light::SharedShadow> sharedShadow;
+    Bounds bounds;         ///< of all instances, without their offsets
+    glm::dvec3 wind{0.0};  ///< velocity with which all instances drift [m/s]
     /// Densities on the host, of the assets that a question has needed them of.
     std::map<const cloud::Asset*, std::shared_ptr<const query::BrickField>> fields{};
 
     /// Numbers of the instances in which there is something.
     std::vector<std::size_t> visible() const;
-    bool hasPhotons() const;
+    bool hasPhotons() const { return photons.has_value(); }
     bool hasShadows() const;
 };
 
@@ -60,8 +68,8 @@ World makeWorld(gpu::Context& context, const scene::Scene& scene, const WorldOpt
 World makeWorldBeside(gpu::Context& context, const scene::Scene& scene, const World& other,
                       const WorldOptions& options);
 
-/// Traces a generation of photons in every cloud. Returns false where `cutOff` ended one of them: none of them counts
-/// then.
-bool traceAll(World& world, const CutOff& cutOff);
+/// Traces a generation of photons through all clouds. Returns false where `cutOff` ended it: it does not count then.
+/// `ground`: that of the scene, null where it has none.
+bool traceAll(World& world, const CutOff& cutOff, const photon::Ground* ground);
 
 }  // namespace lumulus

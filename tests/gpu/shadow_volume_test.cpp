@@ -37,7 +37,7 @@ class ShadowVolumeTest : public test::VulkanTest {
         sun.record(commands, travel, extinction);
         commands.submit();
         commands.wait();
-        DepthGrid result{makeShadowGrid(cloud, travel, 32.0 * 1024 * 1024), {}};
+        DepthGrid result{makeShadowGrid(cloud.size, cloud.voxelToMetres, travel, 32.0 * 1024 * 1024), {}};
         EXPECT_EQ(result.grid.size, sun.image().extent());
         for (const std::uint16_t bits : gpu::download<std::uint16_t>(context, sun.image()))
             result.depths.push_back(static_cast<double>(glm::unpackHalf1x16(bits)));
@@ -163,7 +163,7 @@ TEST_F(ShadowVolumeTest, GridCoversTheCloud) {
     const cloud::Asset cloud = cloud::prepare(context, test::cloudCases()[1].volume, test::prepareOptions(100));
     for (const double most : {1e3, 1e5, 1e8})
         for (const dvec3& direction : {dvec3(0, -1, 0), dvec3(0, 1, 0), dvec3(1, 1, 1), dvec3(-1, 0, 1e-9)}) {
-            const ShadowGrid grid = makeShadowGrid(cloud, glm::normalize(direction), most);
+            const ShadowGrid grid = makeShadowGrid(cloud.size, cloud.voxelToMetres, glm::normalize(direction), most);
             EXPECT_LE(double(grid.size.x) * grid.size.y * grid.size.z, 2.0 * most + 1000.0);
             for (int corner = 0; corner < 8; ++corner) {
                 const dvec3 voxel = dvec3(corner & 1, (corner >> 1) & 1, corner >> 2) * dvec3(cloud.size);

@@ -17,7 +17,9 @@ inline scene::Sun noSun() {
     return sunFrom({0.0, 1.0, 0.0}, glm::dvec3(0.0));
 }
 inline scene::Sky skyOf(const glm::dvec3& radiance) {
-    return {radiance};
+    scene::Sky sky;
+    sky.radiance = radiance;
+    return sky;
 }
 
 struct MediumOptions {

@@ -44,10 +44,13 @@ namespace spirv {
 #include "spirv/light/light_cells.comp.h"
 #include "spirv/light/light_counts.comp.h"
 #include "spirv/light/shadow_volume.comp.h"
+#include "spirv/light/shared_shadow.comp.h"
 #include "spirv/photon/accumulate.comp.h"
 #include "spirv/photon/gather.comp.h"
+#include "spirv/photon/ground_counts.comp.h"
 #include "spirv/photon/reconstruct.comp.h"
 #include "spirv/photon/trace.comp.h"
+#include "spirv/photon/trace_world.comp.h"
 }  // namespace spirv
 
 using namespace shared;  // NOLINT: the structs under test
@@ -112,6 +115,8 @@ TEST(SharedLayout, Photon) {
     EXPECT_LAYOUT(trace_comp, PhotonRecord, collector, direction, power);
     EXPECT_LAYOUT(trace_comp, TraceCounters, events, nulls, absorbed, escaped, lost, records, reflected,
                   transmittedDiffuse, transmittedDirect, pending, unused);
+    EXPECT_LAYOUT(trace_comp, GroundParams, cellsToWorld, origin, extent, cells, albedo, open, sky, countBase);
+    EXPECT_PUSH(ground_counts_comp, GroundCountsPush, base, count, unit);
     EXPECT_PUSH(gather_comp, GatherPush, collectors, invocations, recordCapacity);
     EXPECT_PUSH(accumulate_comp, AccumulatePush, coefficients, shift, keepSlots);
     EXPECT_PUSH(reconstruct_comp, ReconstructPush, collectors, scale, eye, voxelToWorld, sunDirection, axisBase,
@@ -133,10 +138,13 @@ TEST(SharedLayout, Draw) {
     EXPECT_PUSH(billboards_comp, DrawPush, what, first, count);
     EXPECT_PUSH(interpolate_comp, InterpolatePush, first, count, firstBlock, blocks);
     EXPECT_LAYOUT(billboards_comp, Pixel, cloud, transmittance, alpha, depth, front, radiance, unused);
+    EXPECT_LAYOUT(trace_world_comp, MergedGridParams, bricks, instances, edge, largestWeight);
+    EXPECT_LAYOUT(shared_shadow_comp, Occluder, texelToTexel, offset, origin, size);
+    EXPECT_PUSH(shared_shadow_comp, SharedShadowPush, size, origin, first, occluders);
     EXPECT_PUSH(shadow_volume_comp, ShadowVolumePush, gridToVoxel, originVoxel, inverseSize, grid, step, firstRow);
-    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, eye, voxelToWorld, occupied, lit);
+    EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, eye, voxelToWorld, occupied, lit, firstCollector);
     EXPECT_PUSH(light_counts_comp, LightCountsPush, size, grid, estimatorCells, estimatorAcross, estimatorBase,
-                estimatorScale, massScale, photon, moment, occupied);
+                estimatorScale, massScale, photon, moment, occupied, firstCollector);
     EXPECT_PUSH(billboard_mean_comp, BillboardMeanPush, worldToVoxel, inverseSize, spheres);
 }
 

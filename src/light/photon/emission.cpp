@@ -1,6 +1,7 @@
 #include "light/photon/emission.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace lumulus::photon {
 
@@ -26,6 +27,15 @@ Emission makeEmission(const scene::Sun& sun, const sky::Environment& environment
     for (int axis = 0; axis < 3; ++axis) projected += std::abs(glm::dot(faceArea[axis], sun.directionTo));
     emission.sunFlux = sun.irradiance * projected;
     emission.skyFlux = environment.fluxThrough(faceArea);
+    const double both = luminance(emission.sunFlux) + luminance(emission.skyFlux);
+    emission.sunShare = both > 0.0 ? luminance(emission.sunFlux) / both : 0.0;
+    return emission;
+}
+
+Emission makeEmission(const scene::Sun& sun, const sky::Environment& environment, double area) {
+    Emission emission;
+    emission.sunFlux = sun.irradiance * area;
+    emission.skyFlux = 4.0 * std::numbers::pi * area * environment.uniformRadiance();
     const double both = luminance(emission.sunFlux) + luminance(emission.skyFlux);
     emission.sunShare = both > 0.0 ? luminance(emission.sunFlux) / both : 0.0;
     return emission;

@@ -29,6 +29,9 @@ struct Emission {
 /// Light that enters a box whose faces have these area vectors [m²] (one of each pair).
 Emission makeEmission(const scene::Sun& sun, const sky::Environment& environment, const glm::dmat3& faceArea);
 
+/// Light of which a photon stands for `area` [m²] at most, across its direction, from wherever it comes.
+Emission makeEmission(const scene::Sun& sun, const sky::Environment& environment, double area);
+
 /// Area vectors [m²] of the faces across x, y and z of a box of `size` voxels with the given edges (columns) [m]. They
 /// point the way of the edges, in a mirrored volume too.
 glm::dmat3 faceAreas(const glm::dmat3& voxelEdges, const glm::dvec3& size);

@@ -54,6 +54,11 @@ std::uint32_t capacityFor(std::uint64_t photons, std::uint32_t invocations) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, roundRecords / invocations));
 }
 
+std::vector<SpecConstant> withGround(std::vector<SpecConstant> constants, const Options& options) {
+    if (options.ground) constants.push_back(SpecConstant::of(5, true));
+    return constants;
+}
+
 }  // namespace
 
 void PassLog::add(const gpu::Commands& commands) {
@@ -68,16 +73,29 @@ void PassLog::add(const gpu::Commands& commands) {
     }
 }
 
-GenerationTracer::GenerationTracer(gpu::Context& context, const cloud::Asset& cloud, const Medium& medium,
-                                   const Options& options)
-    : cloud_(cloud),
-      medium_(medium),
+GenerationTracer::GenerationTracer(gpu::Context& context, const MapPart& part, const Options& options)
+    : GenerationTracer(context,
+                       {&part, nullptr, traceSpirv(),
+                        withGround(traceConstants(part.medium.tables, part.medium.albedo, false), options),
+                        part.collectors, part.estimatorBase + shared::estimatorCounts(part.estimates.cells)},
+                       options) {}
+
+GenerationTracer::GenerationTracer(gpu::Context& context, const WorldWalk& walk, std::uint32_t collectors,
+                                   std::uint32_t axisBase, const Options& options)
+    : GenerationTracer(context,
+                       {nullptr, &walk, walk.spirv(), withGround(walk.constants(), options), collectors, axisBase},
+                       options) {}
+
+GenerationTracer::GenerationTracer(gpu::Context& context, const Walked& walked, const Options& options)
+    : part_(walked.part),
+      world_(walked.world),
+      axisBase_(walked.axisBase),
       options_(options),
-      collectors_(static_cast<std::uint32_t>(cloud.collectors.size())),
+      collectors_(walked.collectors),
       invocations_(invocationsFor(context, options.photonsPerGeneration)),
       recordCapacity_(capacityFor(options.photonsPerGeneration, invocations_)),
-      faceArea_(faceAreas(cloud.voxelToMetres, glm::dvec3(cloud.size))),
-      traceProgram_(context, "trace", traceSpirv(), traceConstants(medium.tables, medium.albedo, false)),
+      faceArea_(part_ != nullptr ? faceAreas(part_->voxelToMetres, glm::dvec3(part_->asset->size)) : glm::dmat3(0.0)),
+      traceProgram_(context, "trace", walked.spirv, walked.constants),
       scanProgram_(context, "scan", spirv::scan_comp),
       scatterProgram_(context, "scatter", spirv::scatter_comp),
       gatherProgram_(context, "gather", spirv::gather_comp, {SpecConstant::of(0, options.bands)}),
@@ -93,31 +111,50 @@ GenerationTracer::GenerationTracer(gpu::Context& context, const cloud::Asset& cl
       gatherArguments_(context, "gather arguments", sizeof(glm::uvec3), Memory::device),
       sorted_(context, "sorted records", std::uint64_t{invocations_} * recordCapacity_ * sizeof(glm::uvec3),
               Memory::device),
-      inverseCdf_(context, "inverse cdf", medium.tables.inverseCdf.size() * sizeof(float), Memory::device),
+      inverseCdf_(context, "inverse cdf", part_ != nullptr ? part_->medium.tables.inverseCdf.size() * sizeof(float) : 0,
+                  Memory::device),
       commands_(context) {
-    if (!medium.tables.inverseCdf.empty()) gpu::upload(context, inverseCdf_, medium.tables.inverseCdf);
+    if (part_ != nullptr && !part_->medium.tables.inverseCdf.empty())
+        gpu::upload(context, inverseCdf_, part_->medium.tables.inverseCdf);
+}
+
+glm::dmat3 GenerationTracer::cellsToWorld() const {
+    if (world_ != nullptr) return glm::dmat3(world_->cellEdge());
+    glm::dmat3 edges = part_->voxelToMetres;
+    for (int axis = 0; axis < 3; ++axis) edges[axis] *= static_cast<double>(part_->asset->majorants.cellSize[axis]);
+    return edges;
+}
+
+/// Where the one cloud and its medium are described.
+void GenerationTracer::setCloud(shared::TraceParams& p, double extinction) const {
+    const Medium& medium = part_->medium;
+    const double f = static_cast<double>(medium.tables.forwardFraction);
+    const double least = std::min(medium.albedo.x, std::min(medium.albedo.y, medium.albedo.z));
+    p.size = glm::vec3(part_->asset->size);
+    p.cells = part_->asset->majorants.cells;
+    p.cellSize = part_->asset->majorants.cellSize;
+    p.worldToCells = glm::mat3(glm::inverse(cellsToWorld()));
+    p.extinction = static_cast<float>(extinction * (1.0 - f * least));
+    p.scatterShare = static_cast<float>((1.0 - f) / (1.0 - f * least));
+    p.albedo = glm::vec3(medium.albedo);
+    p.straightWeight = least < 1.0 ? glm::vec3((medium.albedo - least) / (1.0 - least)) : glm::vec3(0.0F);
+    p.scatterFraction = static_cast<float>(1.0 - f);
+    p.asymmetry = medium.tables.g;
+    p.estimatorBase = part_->estimatorBase;
+    p.estimatorEdge = part_->estimates.edge;
+    p.estimatorCells = part_->estimates.cells;
+    setFaces(p, faceArea_);
 }
 
 shared::TraceParams GenerationTracer::traceParams(const Emission& emission, const scene::Sun& sun, double extinction,
                                                   int unitExponent, std::uint32_t number) const {
     shared::TraceParams p{};
-    const double f = static_cast<double>(medium_.tables.forwardFraction);
-    const double least = std::min(medium_.albedo.x, std::min(medium_.albedo.y, medium_.albedo.z));
-    p.size = glm::vec3(cloud_.size);
-    p.cells = cloud_.majorants.cells;
-    p.cellSize = cloud_.majorants.cellSize;
-    glm::dmat3 cellEdges = cloud_.voxelToMetres;
-    for (int axis = 0; axis < 3; ++axis) cellEdges[axis] *= static_cast<double>(p.cellSize[axis]);
-    p.worldToCells = glm::mat3(glm::inverse(cellEdges));
-    p.extinction = static_cast<float>(extinction * (1.0 - f * least));
-    p.scatterShare = static_cast<float>((1.0 - f) / (1.0 - f * least));
-    p.albedo = glm::vec3(medium_.albedo);
-    p.straightWeight = least < 1.0 ? glm::vec3((medium_.albedo - least) / (1.0 - least)) : glm::vec3(0.0F);
-    p.scatterFraction = static_cast<float>(1.0 - f);
-    p.asymmetry = medium_.tables.g;
     p.sunDirection = glm::vec3(-sun.directionTo);
     p.sunCone = static_cast<float>(2.0 * std::pow(std::sin(0.25 * glm::radians(sun.angularDiameter)), 2));
-    setFaces(p, faceArea_);
+    if (part_ != nullptr)
+        setCloud(p, extinction);
+    else
+        world_->setParams(p);
     const double watts = std::ldexp(1.0, -unitExponent);
     p.sunPower = glm::vec3(emission.sunPower(options_.photonsPerGeneration) * watts);
     p.skyPower = glm::vec3(emission.skyPower(options_.photonsPerGeneration) * watts);
@@ -133,10 +170,7 @@ shared::TraceParams GenerationTracer::traceParams(const Emission& emission, cons
     p.recordCapacity = recordCapacity_;
     p.stepLimit = stepLimit;
     p.collisionLimit = collisionLimit;
-    p.estimatorBase = collectors_ * 3U * static_cast<std::uint32_t>(options_.bands * options_.bands);
-    p.estimatorEdge = options_.estimates.edge;
-    p.estimatorCells = options_.estimates.cells;
-    p.axisBase = p.estimatorBase + shared::estimatorCounts(options_.estimates.cells);
+    p.axisBase = axisBase_;
     return p;
 }
 
@@ -165,26 +199,32 @@ void GenerationTracer::shortenRounds() {
     steps = std::max(fewest, steps / 2);
 }
 
+std::vector<gpu::Binding> GenerationTracer::walkBindings() const {
+    if (world_ != nullptr) return world_->bindings();
+    const cloud::Asset& cloud = *part_->asset;
+    return {{"density", cloud.density, Sampler::nearest},
+            {"collectorIndex", cloud.collectorIndex, Sampler::nearest},
+            {"majorants", cloud.majorantImage},
+            {"InverseCdf", inverseCdf_}};
+}
+
 void GenerationTracer::round(const gpu::Buffer& coefficients) {
     counters_.mapped<shared::TraceCounters>()[0] = {};
     const shared::GatherPush push{collectors_, invocations_, recordCapacity_};
+    std::vector<gpu::Binding> bindings = walkBindings();
+    bindings.insert(bindings.end(), {{"Params", params_},
+                                     {"States", states_},
+                                     {"Records", records_},
+                                     {"RecordCounts", recordCounts_},
+                                     {"CollectorCounts", collectorCounts_},
+                                     {"Counters", counters_},
+                                     {"CollisionEstimates", coefficients},
+                                     {"GroundLight", ground_ != nullptr ? *ground_ : params_}});
     commands_.begin();
     commands_.pass("trace");
     commands_.fill(collectorCounts_, 0);
     commands_.barrier("counts cleared");
-    commands_.dispatch(traceProgram_,
-                       {{"density", cloud_.density, Sampler::nearest},
-                        {"collectorIndex", cloud_.collectorIndex, Sampler::nearest},
-                        {"Params", params_},
-                        {"majorants", cloud_.majorantImage},
-                        {"InverseCdf", inverseCdf_},
-                        {"States", states_},
-                        {"Records", records_},
-                        {"RecordCounts", recordCounts_},
-                        {"CollectorCounts", collectorCounts_},
-                        {"Counters", counters_},
-                        {"CollisionEstimates", coefficients}},
-                       {}, linearGroups(invocations_, 64));
+    commands_.dispatch(traceProgram_, bindings, {}, linearGroups(invocations_, 64));
     commands_.barrier("records");
     recordSort(push);
     commands_.pass("gather");

@@ -10,6 +10,7 @@
 #include "gpu/program.h"
 #include "light/photon/emission.h"
 #include "light/photon/photon_map.h"
+#include "light/photon/world_walk.h"
 #include "shared/photon.h"
 
 namespace lumulus::photon {
@@ -22,12 +23,16 @@ struct PassLog {
     void add(const gpu::Commands& commands);
 };
 
-/// Walks the photons of one generation through the cloud, round by round, and gathers what they leave: the record
-/// buffer never drops, what does not fit waits for the next round.
+/// Walks the photons of one generation through the cloud, or through several, round by round, and gathers what they
+/// leave: the record buffer never drops, what does not fit waits for the next round.
 class GenerationTracer {
   public:
-    /// `cloud` and `medium` must outlive the tracer.
-    GenerationTracer(gpu::Context& context, const cloud::Asset& cloud, const Medium& medium, const Options& options);
+    /// Through one cloud. The part must outlive the tracer.
+    GenerationTracer(gpu::Context& context, const MapPart& part, const Options& options);
+    /// Through several, with so many collectors together and estimates before `axisBase`. The walk must outlive the
+    /// tracer.
+    GenerationTracer(gpu::Context& context, const WorldWalk& walk, std::uint32_t collectors, std::uint32_t axisBase,
+                     const Options& options);
 
     const glm::dmat3& faceArea() const { return faceArea_; }
 
@@ -41,16 +46,33 @@ class GenerationTracer {
                std::uint64_t& unsettledRecords, PassLog& log, const CutOff& cutOff);
 
     /// Lowers the photons of the generations from now on. `photons` is at least 1 and at most what it was.
+    /// The ground for the walk; must outlive the tracer. Before the first generation of a map with one.
+    void setGround(const gpu::Buffer& ground) { ground_ = &ground; }
+    /// Edges of the walk's cells in the world, columns [m].
+    glm::dmat3 cellsToWorld() const;
+
     void setPhotons(std::uint64_t photons) { options_.photonsPerGeneration = photons; }
 
   private:
-    const cloud::Asset& cloud_;
-    const Medium& medium_;
+    /// The program of a walk and what it needs beside.
+    struct Walked {
+        const MapPart* part;     ///< the one cloud; null: there are several
+        const WorldWalk* world;  ///< the several clouds; null: there is one
+        std::span<const std::uint32_t> spirv;
+        std::vector<gpu::SpecConstant> constants;
+        std::uint32_t collectors, axisBase;
+    };
+    GenerationTracer(gpu::Context& context, const Walked& walked, const Options& options);
+
+    const MapPart* part_;
+    const WorldWalk* world_;
+    std::uint32_t axisBase_;
     Options options_;
     std::uint32_t collectors_;
     std::uint32_t invocations_;
     std::uint32_t recordCapacity_;
     glm::dmat3 faceArea_;
+    const gpu::Buffer* ground_ = nullptr;
 
     gpu::Program<gpu::NoPush> traceProgram_;
     gpu::Program<shared::GatherPush> scanProgram_, scatterProgram_, gatherProgram_;
@@ -60,6 +82,8 @@ class GenerationTracer {
 
     shared::TraceParams traceParams(const Emission& emission, const scene::Sun& sun, double extinction,
                                     int unitExponent, std::uint32_t number) const;
+    void setCloud(shared::TraceParams& p, double extinction) const;
+    std::vector<gpu::Binding> walkBindings() const;
     void recordSort(const shared::GatherPush& push);
     void shortenRounds();
     void round(const gpu::Buffer& coefficients);

@@ -5,15 +5,17 @@
 #include <cmath>
 #include <deque>
 #include <glm/gtx/component_wise.hpp>
-#include <numeric>
 #include <optional>
 
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
 #include "light/photon/coefficient_sums.h"
+#include "light/photon/collector_light.h"
 #include "light/photon/emission.h"
 #include "light/photon/generation.h"
-#include "light/photon/map_limits.h"
+#include "light/photon/ground.h"
+#include "light/photon/map_layout.h"
+#include "light/photon/world_walk.h"
 #include "shared/collision_estimator.h"
 #include "shared/photon.h"
 #include "shared/sun_axis.h"
@@ -22,15 +24,7 @@ namespace lumulus::photon {
 
 namespace {
 
-namespace spirv {
-#include "spirv/photon/reconstruct.comp.h"
-}  // namespace spirv
-
 using gpu::Buffer;
-using gpu::linearGroups;
-using gpu::Memory;
-using gpu::Program;
-using gpu::SpecConstant;
 
 /// The ring counts in 2⁻⁴² of the greatest flux that the first generation's lights may have: 2⁻²⁵ of a photon's power
 /// at 1e5 photons, and 2¹⁹ times the flux before saturation.
@@ -49,50 +43,39 @@ double greatestFlux(const scene::Sun& sun, const Emission& emission, const glm::
     return glm::compMax(sun.irradiance * area + emission.skyFlux);
 }
 
-/// A texel for each collector.
-gpu::Image collectorImage(gpu::Context& context, const char* name, std::uint32_t collectors) {
-    const glm::ivec2 extent(shared::COLLECTORS_WIDTH, collectors / shared::COLLECTORS_WIDTH + 1);
-    return {context, name, extent, VK_FORMAT_R32G32B32A32_SFLOAT};
-}
-
-/// Of all collectors together, where there is room for them.
-std::uint32_t coefficientsOf(const gpu::Context& context, std::uint32_t collectors, const Medium& medium,
-                             const Options& options) {
-    const std::uint64_t rings = medium.tables.axisTable.empty() ? 0 : std::uint64_t{collectors} * shared::AXIS_COUNTS;
-    const MapSize size{collectors,
-                       options.bands,
-                       options.generations,
-                       options.keepRing,
-                       options.splitGenerations,
-                       shared::estimatorCounts(options.estimates.cells) + rings};
-    requireMapFits(size, options.memoryBudget, context.limits().maxStorageBufferRange);
-    return static_cast<std::uint32_t>(generationBytes(size) / sizeof(std::int64_t));
+/// Of several clouds that show `share` of the area that a photon may stand for.
+double greatestFlux(const Emission& emission, double share) {
+    return share * glm::compMax(emission.sunFlux + emission.skyFlux);
 }
 
 }  // namespace
 
 struct PhotonMap::State {
-    State(gpu::Context& gpuContext, const cloud::Asset& preparedCloud, const Medium& theMedium,
+    State(gpu::Context& gpuContext, std::vector<MapPart> theParts, const cloud::SharedVolumes* volumes,
           const Options& theOptions);
 
     gpu::Context& context;
-    const cloud::Asset& cloud;
-    const Medium medium;
+    std::vector<MapPart> parts;
     Options options;
+    std::uint32_t axisBase;
     std::uint32_t collectors;
 
     CoefficientSums sums;
+    std::optional<WorldWalk> walk;  // where there are several instances
     GenerationTracer tracer;
-    Program<shared::ReconstructPush> reconstructProgram;
-    Buffer moments, places, axisTable;
-    gpu::Image fluences, colours, radiance;
+    std::optional<GroundWalk> groundWalk;  // where there is a ground
+    std::optional<Ground> ground;
+    CollectorLight reconstruction;
 
     double flux = 0.0;             // luminance of the newest generation's light [W]
     glm::dvec3 sunDirection{0.0};  // of travel, of the newest generation's sun
     Counters counters;             // of all generations, also those that were dropped
     PassLog log;
-    std::deque<double> ringExtinctions;  // of the generations in the ring, over the medium's
-    double newExtinction = 0.0;          // of the generation that waits for keep() or drop()
+    /// Of the generations in the ring: extinction of each part over that of its medium.
+    std::deque<std::vector<double>> ringExtinctions;
+    std::vector<double> newExtinctions;  // of the generation that waits for keep() or drop()
+    double newExtinction = 0.0;          // of the one cloud [1/m]
+    std::vector<Placement> places;       // of several instances
 
     /// What drop() goes back to.
     struct Before {
@@ -102,37 +85,51 @@ struct PhotonMap::State {
     };
     std::optional<Before> before;
 
+    Emission emissionOf(const scene::Sun& sun, const sky::Environment& environment) const;
+    Emission emissionUnder(const scene::Sun& sun, const sky::Environment& environment) const;
     int unitExponentFor(const Emission& emission, const scene::Sun& sun);
     bool traceLit(const Emission& emission, const scene::Sun& sun, const CutOff& cutOff);
+    double meanExtinction(std::size_t part) const;
+    void placeCollectors();
 };
 
-PhotonMap::State::State(gpu::Context& gpuContext, const cloud::Asset& preparedCloud, const Medium& theMedium,
+PhotonMap::State::State(gpu::Context& gpuContext, std::vector<MapPart> theParts, const cloud::SharedVolumes* volumes,
                         const Options& theOptions)
     : context(gpuContext),
-      cloud(preparedCloud),
-      medium(theMedium),
+      parts(std::move(theParts)),
       options(theOptions),
-      collectors(static_cast<std::uint32_t>(cloud.collectors.size())),
-      sums(context, options, coefficientsOf(context, collectors, medium, options)),
-      tracer(context, cloud, medium, options),
-      reconstructProgram(context, "reconstruct", spirv::reconstruct_comp,
-                         {SpecConstant::of(0, options.bands), SpecConstant::of(1, !medium.tables.axisTable.empty())}),
-      moments(context, "band moments", medium.tables.bandMoments.size() * sizeof(float), Memory::device),
-      places(context, "collector places", collectors * sizeof(glm::vec4), Memory::device),
-      axisTable(context, "axis table", std::max<std::size_t>(1, medium.tables.axisTable.size()) * sizeof(float),
-                Memory::device),
-      fluences(collectorImage(context, "collector fluences", collectors)),
-      colours(collectorImage(context, "collector colours", collectors)),
-      radiance(collectorImage(context, "collector radiance", collectors)) {
-    gpu::upload(context, moments, medium.tables.bandMoments);
-    if (!medium.tables.axisTable.empty()) gpu::upload(context, axisTable, medium.tables.axisTable);
+      axisBase(layOut(parts, options.bands)),
+      collectors(collectorsOf(parts)),
+      sums(context, options, coefficientsOf(context, parts, options)),
+      walk(volumes != nullptr ? std::optional<WorldWalk>(std::in_place, context, parts, *volumes) : std::nullopt),
+      tracer(walk ? GenerationTracer(context, *walk, collectors, axisBase, options)
+                  : GenerationTracer(context, parts.front(), options)),
+      reconstruction(context, parts, options.bands) {
+    if (options.ground) groundWalk.emplace(context, groundBase(parts, axisBase));
+}
+
+/// Of several instances all light counts that is not for certain beside all of them.
+Emission PhotonMap::State::emissionOf(const scene::Sun& sun, const sky::Environment& environment) const {
+    if (ground) {  // its photons start like those of the sky, and have their share of the brightest of both
+        scene::Sky brightest;
+        brightest.radiance = ground->brightest();
+        return emissionUnder(sun, sky::Environment(brightest));
+    }
+    return emissionUnder(sun, environment);
+}
+
+Emission PhotonMap::State::emissionUnder(const scene::Sun& sun, const sky::Environment& environment) const {
+    if (!walk) return makeEmission(sun, environment, tracer.faceArea());
+    return makeEmission(sun, environment, walk->largestWeight());
 }
 
 /// The unit of a generation's records, and with the first that has light, that of the sum.
 int PhotonMap::State::unitExponentFor(const Emission& emission, const scene::Sun& sun) {
     const double most = std::max(glm::compMax(emission.sunPower(options.photonsPerGeneration)),
                                  glm::compMax(emission.skyPower(options.photonsPerGeneration)));
-    if (!sums.hasUnit()) sums.setUnit(exponentAbove(greatestFlux(sun, emission, tracer.faceArea())) - unitBits);
+    const double greatest = walk ? greatestFlux(emission, walk->area() / walk->largestWeight())
+                                 : greatestFlux(sun, emission, tracer.faceArea());
+    if (!sums.hasUnit()) sums.setUnit(exponentAbove(greatest) - unitBits);
     const int unitExponent = exponentAbove(most / static_cast<double>(shared::POWER_UNITS));
     const int finer = -sums.shiftOf(unitExponent);
     return finer > 0 && finer <= sparedBits ? unitExponent + finer : unitExponent;
@@ -145,14 +142,70 @@ bool PhotonMap::State::traceLit(const Emission& emission, const scene::Sun& sun,
                         counters, sums.records(), log, cutOff);
 }
 
+/// Means over the ring of the extinction of a part, over that of its medium.
+double PhotonMap::State::meanExtinction(std::size_t part) const {
+    if (ringExtinctions.empty()) return 1.0;
+    double sum = 0.0;
+    for (const std::vector<double>& generation : ringExtinctions) sum += generation[part];
+    return sum / static_cast<double>(ringExtinctions.size());
+}
+
+/// Where the collectors of several instances are, and their masses.
+void PhotonMap::State::placeCollectors() {
+    std::vector<double> extinctions;
+    for (std::size_t i = 0; i < parts.size(); ++i) extinctions.push_back(meanExtinction(i));
+    std::vector<glm::vec4> texels;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const MapPart& part = parts[i];
+        if (!part.collects) continue;
+        for (const cloud::Collector& collector : part.asset->collectors) {
+            const glm::dvec3 place =
+                places[i].origin - walk->corner() + part.voxelToMetres * glm::dvec3(collector.centre);
+            const double mass = static_cast<double>(collector.mass) * part.massScale() * extinctions[i];
+            texels.emplace_back(glm::vec3(place), static_cast<float>(mass));
+        }
+    }
+    reconstruction.setPlaces(texels);
+}
+
+namespace {
+
+MapPart onlyPart(const cloud::Asset& cloud, const glm::dmat3& voxelToMetres, const Medium& medium,
+                 const Options& options) {
+    MapPart part;
+    part.asset = &cloud;
+    part.medium = medium;
+    part.voxelToMetres = voxelToMetres;
+    part.estimates = options.estimates;
+    return part;
+}
+
+}  // namespace
+
 PhotonMap::PhotonMap(gpu::Context& context, const cloud::Asset& cloud, const Medium& medium, const Options& options)
-    : state_(std::make_unique<State>(context, cloud, medium, options)) {
+    : PhotonMap(context, cloud, cloud.voxelToMetres, medium, options) {}
+
+PhotonMap::PhotonMap(gpu::Context& context, const cloud::Asset& cloud, const glm::dmat3& voxelToMetres,
+                     const Medium& medium, const Options& options)
+    : state_(std::make_unique<State>(context, std::vector{onlyPart(cloud, voxelToMetres, medium, options)}, nullptr,
+                                     options)) {
     State& s = *state_;
     const std::vector<double> mass = masses();
     std::vector<glm::vec4> places;
     for (std::size_t i = 0; i < cloud.collectors.size(); ++i)
         places.emplace_back(cloud.collectors[i].centre, static_cast<float>(mass[i]));
-    gpu::upload(context, s.places, places);
+    s.reconstruction.setPlaces(places);
+}
+
+PhotonMap::PhotonMap(gpu::Context& context, std::vector<MapPart> parts, const cloud::SharedVolumes& volumes,
+                     const Options& options)
+    : state_(std::make_unique<State>(context, std::move(parts), &volumes, options)) {}
+
+void PhotonMap::place(std::span<const Placement> places) {
+    State& s = *state_;
+    s.walk->place(places);
+    s.places.assign(places.begin(), places.end());
+    s.placeCollectors();
 }
 
 PhotonMap::PhotonMap(PhotonMap&&) noexcept = default;
@@ -165,8 +218,13 @@ void PhotonMap::trace(const scene::Sun& sun, const sky::Environment& environment
 bool PhotonMap::tryTrace(const scene::Sun& sun, const sky::Environment& environment, const CutOff& cutOff,
                          std::optional<double> extinction) {
     State& s = *state_;
-    s.newExtinction = extinction.value_or(s.medium.extinction);
-    const Emission emission = makeEmission(sun, environment, s.tracer.faceArea());
+    s.newExtinction = extinction.value_or(s.parts.front().medium.extinction);
+    s.newExtinctions.clear();
+    for (std::size_t i = 0; i < s.parts.size(); ++i) {
+        const double own = s.parts[i].medium.extinction;
+        s.newExtinctions.push_back((s.walk ? s.places[i].extinction : s.newExtinction) / own);
+    }
+    const Emission emission = s.emissionOf(sun, environment);
     s.before = State::Before{s.flux, s.sunDirection, s.counters};
     s.flux = luminance(emission.sunFlux + emission.skyFlux);
     s.sunDirection = -sun.directionTo;
@@ -184,12 +242,24 @@ bool PhotonMap::tryTrace(const scene::Sun& sun, const sky::Environment& environm
     return false;
 }
 
+void PhotonMap::setGround(const Ground& ground) {
+    State& s = *state_;
+    s.ground = ground;
+    s.groundWalk->set(ground, s.tracer.cellsToWorld());
+    s.tracer.setGround(s.groundWalk->buffer());
+}
+
+std::vector<glm::vec3> PhotonMap::groundLight() {
+    return state_->groundWalk->download(light());
+}
+
 void PhotonMap::keep() {
     State& s = *state_;
     s.sums.keep();
     s.before.reset();
-    s.ringExtinctions.push_back(s.newExtinction / s.medium.extinction);
+    s.ringExtinctions.push_back(s.newExtinctions);
     if (s.options.keepRing && s.sums.kept() > s.options.generations) s.ringExtinctions.pop_front();
+    if (s.walk) s.placeCollectors();
 }
 
 void PhotonMap::drop() {
@@ -214,33 +284,33 @@ std::uint64_t PhotonMap::shrinkGenerations(std::uint64_t divisor, std::uint64_t 
 Light PhotonMap::light(Part part) {
     State& s = *state_;
     if (part != Part::all) return s.sums.half(part == Part::even);
-    // Σ c over Σ M: equal extinctions give exactly the number of generations
-    const double masses = std::accumulate(s.ringExtinctions.begin(), s.ringExtinctions.end(), 0.0);
+    // Σ c over Σ M: equal extinctions give exactly the number of generations. Of several clouds the places of the
+    // collectors have the means.
+    double masses = s.walk ? static_cast<double>(s.ringExtinctions.size()) : 0.0;
+    if (!s.walk)
+        for (const std::vector<double>& generation : s.ringExtinctions) masses += generation.front();
     settle();
     const Light sum = s.sums.all();
     return {sum.counts, sum.unit / (masses > 0.0 ? masses : 1.0)};
 }
 
-void PhotonMap::reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, const Light& light) {
-    State& s = *state_;
+void PhotonMap::reconstruct(gpu::Commands& commands, const glm::vec3& eye, const Light& light) {
+    const State& s = *state_;
     shared::ReconstructPush push{};
-    push.collectors = s.collectors;
     push.scale = static_cast<float>(light.unit);
-    push.eye = eyeVoxel;
-    push.voxelToWorld = glm::mat3(s.cloud.voxelToMetres);
+    push.eye = eye;
+    push.voxelToWorld = s.walk ? glm::mat3(1.0F) : glm::mat3(s.parts.front().voxelToMetres);
     push.sunDirection = glm::vec3(s.sunDirection);
-    push.axisBase = estimatorBase() + shared::estimatorCounts(s.options.estimates.cells);
-    push.angleScale = s.medium.tables.angleScale;
-    commands.pass("reconstruct");
-    commands.dispatch(s.reconstructProgram,
-                      {{"Sum", *light.counts},
-                       {"Moments", s.moments},
-                       {"Collectors", s.places},
-                       {"fluences", s.fluences},
-                       {"radiance", s.radiance},
-                       {"colours", s.colours},
-                       {"AxisTable", s.axisTable}},
-                      push, linearGroups(s.collectors, 64));
+    push.axisBase = s.axisBase;
+    s.reconstruction.record(commands, *light.counts, push);
+}
+
+glm::dvec3 PhotonMap::corner() const {
+    return state_->walk->corner();
+}
+
+const std::vector<MapPart>& PhotonMap::parts() const {
+    return state_->parts;
 }
 
 void PhotonMap::settle() {
@@ -248,13 +318,13 @@ void PhotonMap::settle() {
 }
 
 const gpu::Image& PhotonMap::radiance() const {
-    return state_->radiance;
+    return state_->reconstruction.radiance();
 }
 const gpu::Image& PhotonMap::fluences() const {
-    return state_->fluences;
+    return state_->reconstruction.fluences();
 }
 const gpu::Image& PhotonMap::colours() const {
-    return state_->colours;
+    return state_->reconstruction.colours();
 }
 int PhotonMap::generationsInRing() const {
     const int kept = state_->sums.kept();
@@ -263,12 +333,15 @@ int PhotonMap::generationsInRing() const {
 SplitCounts PhotonMap::splitCounts() const {
     return state_->sums.splitCounts();
 }
-std::uint32_t PhotonMap::estimatorBase() const {
-    return state_->collectors * 3U * static_cast<std::uint32_t>(state_->options.bands * state_->options.bands);
+double PhotonMap::photonPower(std::size_t part) const {
+    const State& s = *state_;
+    const double photons = static_cast<double>(s.options.photonsPerGeneration) * std::max(1, generationsInRing());
+    return s.flux / photons * (s.walk ? s.walk->meanWeight(part) / s.walk->largestWeight() : 1.0);
 }
-double PhotonMap::photonPower() const {
-    const double photons = static_cast<double>(state_->options.photonsPerGeneration) * std::max(1, generationsInRing());
-    return state_->flux / photons;
+std::uint64_t PhotonMap::photonsOf(std::size_t part) const {
+    const State& s = *state_;
+    if (!s.walk) return photonsInRing();
+    return static_cast<std::uint64_t>(static_cast<double>(photonsInRing()) * s.parts[part].share);
 }
 std::uint64_t PhotonMap::firstInRing() const {
     return state_->options.firstGeneration + static_cast<std::uint64_t>(state_->sums.kept() - generationsInRing());
@@ -307,15 +380,18 @@ std::vector<std::int64_t> PhotonMap::downloadSlot(int slot) const {
     return values;
 }
 
-double PhotonMap::massScale() const {
+double PhotonMap::massScale(std::size_t part) const {
     const State& s = *state_;
-    return s.medium.extinction * (1.0 - static_cast<double>(s.medium.tables.forwardFraction)) * s.cloud.voxelVolume;
+    return s.parts[part].massScale() * (s.walk ? s.meanExtinction(part) : 1.0);
 }
 
 std::vector<double> PhotonMap::masses() const {
     std::vector<double> result;
-    for (const cloud::Collector& collector : state_->cloud.collectors)
-        result.push_back(static_cast<double>(collector.mass) * massScale());
+    for (const MapPart& part : state_->parts) {
+        if (!part.collects) continue;
+        for (const cloud::Collector& collector : part.asset->collectors)
+            result.push_back(static_cast<double>(collector.mass) * part.massScale());
+    }
     return result;
 }
 

@@ -5,20 +5,20 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/cut_off.h"
 #include "base/interrupt.h"
 #include "cloud/asset.h"
+#include "cloud/shared_volumes.h"
 #include "gpu/commands.h"
-#include "medium/scattering_medium.h"
+#include "light/photon/map_part.h"
 #include "scene/scene.h"
 #include "sky/environment.h"
 
 namespace lumulus::photon {
-
-using Medium = phase::ScatteringMedium;
 
 struct Options {
     std::uint64_t photonsPerGeneration = 100000;
@@ -29,12 +29,11 @@ struct Options {
     /// Whether generations beyond the p-th will replace the oldest. A picture that stops at p needs no slots: they are
     /// the bulk of the memory.
     bool keepRing = false;
-    /// Cells in which the luminance of scattering events is counted, whatever its direction: finer than collectors can
-    /// be.
-    cloud::CellGrid estimates;
+    cloud::CellGrid estimates;  ///< of the one cloud, see MapPart
     /// Whether generations of even and of odd number stay apart until the sum takes them: pictures of both tell how
     /// noisy a picture of all is. Not with a ring.
     bool splitGenerations = false;
+    bool ground = false;  ///< whether there is a ground below the clouds, see setGround()
     std::uint64_t memoryBudget = std::uint64_t{1} << 30U;  ///< bytes for all coefficients
     /// Asked between the rounds of a generation, and may throw. Then a map with a ring has the light of before; one
     /// without is of no more use.
@@ -60,6 +59,8 @@ struct Light {
     double unit = 0.0;
 };
 
+struct Ground;
+
 /// The photon map: a ring of generations, each [collector][RGB][bands²] int64 of spherical-harmonic coefficients, then
 /// the estimates (shared/collision_estimator.h) and, where the phase function has a backward peak, the rings about the
 /// sun's axis (shared/sun_axis.h), int64, and their exact sum.
@@ -68,6 +69,12 @@ class PhotonMap {
     /// `cloud` must outlive the map. Collectors' masses are those of `medium.extinction`. Errors: InputError where the
     /// coefficients do not fit into the budget, or those of one generation into a buffer of the device.
     PhotonMap(gpu::Context& context, const cloud::Asset& cloud, const Medium& medium, const Options& options);
+    /// Of one instance of a cloud, whose voxels have these edges in the world [m].
+    PhotonMap(gpu::Context& context, const cloud::Asset& cloud, const glm::dmat3& voxelToMetres, const Medium& medium,
+              const Options& options);
+    /// Of several instances in one walk: photons go from one to the next. Assets and `volumes` outlive the map.
+    PhotonMap(gpu::Context& context, std::vector<MapPart> parts, const cloud::SharedVolumes& volumes,
+              const Options& options);
     PhotonMap(PhotonMap&&) noexcept;
     ~PhotonMap();
 
@@ -81,6 +88,13 @@ class PhotonMap {
     /// first that may be cut off beside others takes the memory of one generation more until they are settled.
     bool tryTrace(const scene::Sun& sun, const sky::Environment& environment, const CutOff& cutOff,
                   std::optional<double> extinction = {});
+    /// Where the instances are from now on, one for each part; before the first generation of a map of several.
+    void place(std::span<const Placement> places);
+    /// The ground for the next generations; before the first one of a map with `Options::ground`, after place().
+    void setGround(const Ground& ground);
+    /// Light of the clouds that falls on the cells of the ground, the mean over the ring [W]: RGB, x fastest. For a map
+    /// with `Options::ground`.
+    std::vector<glm::vec3> groundLight();
     /// Takes the generation of tryTrace() into the oldest slot.
     void keep();
     /// Takes the generation of tryTrace() out again; does nothing where there is none.
@@ -98,16 +112,20 @@ class PhotonMap {
     SplitCounts splitCounts() const;
 
     /// Radiance of every collector towards the eye, and its light of all directions [W·m⁻²]: recorded into `commands`.
-    void reconstruct(gpu::Commands& commands, const glm::vec3& eyeVoxel, const Light& light);
+    /// The eye in voxel coordinates of the one cloud, or in metres from corner().
+    void reconstruct(gpu::Commands& commands, const glm::vec3& eye, const Light& light);
+    /// Where lengths begin in a map of several instances [m].
+    glm::dvec3 corner() const;
     /// At collectorTexel(): RGB and 1; flux and fluence of the luminance, and fluence of RGB, whatever the eye.
     const gpu::Image& radiance() const;
     const gpu::Image& fluences() const;
     const gpu::Image& colours() const;
 
-    /// Where the estimates begin in the counts.
-    std::uint32_t estimatorBase() const;
-    /// Luminance of a photon's power, as the mean of all generations [W].
-    double photonPower() const;
+    const std::vector<MapPart>& parts() const;
+    /// Luminance of the power of a photon that begins round a part, as the mean of all generations [W].
+    double photonPower(std::size_t part = 0) const;
+    /// Photons of the ring that are expected to begin round a part.
+    std::uint64_t photonsOf(std::size_t part) const;
 
     /// Without a ring: all that were traced.
     int generationsInRing() const;
@@ -127,8 +145,8 @@ class PhotonMap {
     double unit() const;
     /// ∫ σt' dV of each collector [m²], by which its coefficients are divided.
     std::vector<double> masses() const;
-    /// From ∫ normalised density dV [voxels] to ∫ σt' dV [m²].
-    double massScale() const;
+    /// From ∫ normalised density dV [voxels] to ∫ σt' dV [m²] of a part, on average over the generations of the ring.
+    double massScale(std::size_t part = 0) const;
 
   private:
     struct State;

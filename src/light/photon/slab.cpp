@@ -139,7 +139,8 @@ class Layer {
                             {"RecordCounts", recordCounts_},
                             {"CollectorCounts", collectorCounts_},
                             {"Counters", counters_},
-                            {"CollisionEstimates", counters_}},
+                            {"CollisionEstimates", counters_},
+                            {"GroundLight", params_}},
                            {}, gpu::linearGroups(lanes, 64));
         commands_.submit();
         commands_.wait();
