@@ -126,7 +126,7 @@ std::vector<glm::vec4> groundThroughFog(fog::Fog& fog, const Camera& camera,
 
 void layBehind(LayeredImage& image, const std::vector<glm::vec4>& behind, const Tile& part, int width) {
     constexpr const char* names[3] = {"R", "G", "B"};
-    const std::vector<float>& passed = image.layer("transmittance.R");
+    const std::vector<float>& covered = image.layer("cloud.A");
     for (int c = 0; c < 3; ++c) {
         const std::vector<float>& cloud = image.layer(std::string("cloud.") + names[c]);
         std::vector<float>& seen = image.layer(names[c]);
@@ -136,7 +136,7 @@ void layBehind(LayeredImage& image, const std::vector<glm::vec4>& behind, const 
                     static_cast<std::size_t>(y) * static_cast<std::size_t>(part.width) + static_cast<std::size_t>(x);
                 const auto from = static_cast<std::size_t>(part.y + y) * static_cast<std::size_t>(width) +
                                   static_cast<std::size_t>(part.x + x);
-                seen[to] = cloud[to] + passed[to] * behind[from][c];
+                seen[to] = cloud[to] + (1.0F - covered[to]) * behind[from][c];
             }
     }
 }

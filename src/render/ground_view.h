@@ -51,7 +51,7 @@ std::vector<glm::vec4> groundThroughFog(fog::Fog& fog, const Camera& camera,
                                         const std::vector<surface::GroundPixel>& ground, const glm::dvec3& sky,
                                         const std::vector<shared::SunPixel>& sun);
 
-/// Puts what is behind the clouds into a part of a picture of that width: R, G, B = cloud + transmittance · behind.
+/// Puts what is behind the clouds into a part of a picture of that width: R, G, B = cloud + (1 − alpha) · behind.
 void layBehind(LayeredImage& image, const std::vector<glm::vec4>& behind, const Tile& part, int width);
 
 }  // namespace lumulus
