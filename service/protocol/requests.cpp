@@ -108,10 +108,14 @@ Composite readComposite(JsonFields& fields, std::vector<std::byte> payload, cons
 Change readChange(JsonFields& fields) {
     Change change;
     change.light = readLight(fields);
-    if (change.light.empty()) throw RequestError("bad_request", "nothing to change: give sun, extinction or wind");
+    change.light.move = fields.vector("move", -1e9, 1e9);
+    if (change.light.empty())
+        throw RequestError("bad_request", "nothing to change: give sun, extinction, wind or move");
     change.cloud = fields.indexOrName("cloud", 65535, longestName);
-    if (change.cloud && !change.light.extinction)
-        throw RequestError("bad_request", "a cloud is named with an extinction for it", "cloud");
+    if (change.cloud && !change.light.extinction && !change.light.move)
+        throw RequestError("bad_request", "a cloud is named with an extinction for it or with a move", "cloud");
+    if (change.light.move && !change.cloud)
+        throw RequestError("bad_request", "a move needs the cloud that moves", "move");
     return change;
 }
 

@@ -14,7 +14,7 @@ bool changesLight(const scene::Scene& scene, const LightChange& change, std::opt
         return wanted && glm::length(*wanted - has) > close * std::max(1.0, glm::length(has));
     };
     if (differs(change.sunDirection, scene.sun.directionTo) || differs(change.sunIrradiance, scene.sun.irradiance) ||
-        differs(change.wind, glm::dvec3(0.0)))
+        differs(change.wind, glm::dvec3(0.0)) || differs(change.move, glm::dvec3(0.0)))
         return true;
     for (std::size_t i = 0; change.extinction && i < scene.clouds.size(); ++i)
         if (cloud.value_or(i) == i && *change.extinction != scene.clouds[i].extinction) return true;
@@ -34,7 +34,8 @@ LightState::Light LightState::all() const {
 }
 
 bool LightState::apply(const LightChange& change, std::optional<std::size_t> cloud) {
-    const bool moved = change.wind && renderer_.setWind(*change.wind);
+    const bool drifts = change.wind && renderer_.setWind(*change.wind);
+    const bool moved = change.move && cloud && renderer_.moveCloud(*change.move, *cloud);
     Light before = all();
     bool changed = false;
     try {
@@ -48,7 +49,7 @@ bool LightState::apply(const LightChange& change, std::optional<std::size_t> clo
         throw RequestError("bad_request", e.what());
     }
     if (changed && !before_) before_ = std::move(before);
-    return changed || moved;
+    return changed || moved || drifts;
 }
 
 bool LightState::revert() {

@@ -42,7 +42,9 @@ struct LightChange {
     std::optional<double> extinction;         ///< 1/m where the density is 1
     std::optional<glm::dvec3> wind;           ///< m/s, by which the cloud drifts with the time of frames
 
-    bool empty() const { return !sunDirection && !sunIrradiance && !extinction && !wind; }
+    std::optional<glm::dvec3> move;  ///< metres by which a cloud lies from where the scene has it
+
+    bool empty() const { return !sunDirection && !sunIrradiance && !extinction && !wind && !move; }
 };
 
 /// A cloud of the scene, by its index or by its name.

@@ -19,6 +19,7 @@ layout(constant_id = 2) const bool ABSORBS = false;     // an albedo below 1
 layout(constant_id = 3) const bool PERIODIC = false;    // a plane-parallel layer across y
 layout(constant_id = 4) const bool AXIS = false;        // the phase function has a backward peak
 layout(constant_id = 5) const bool AIR = false;         // an atmosphere: its light differs by direction and place
+layout(constant_id = 6) const bool GROUND = false;      // there is a ground below the cloud
 #include "lib/store.glsl"
 
 layout(binding = 0) uniform sampler3D density;
@@ -34,6 +35,7 @@ const int CROSSINGS = 16;
 // Held in registers: a load from a buffer costs a loop over the lanes on lavapipe, in every step.
 TraceParams params;
 #include "lib/photon.glsl"
+#include "lib/ground.glsl"
 
 ScatterAngle samplePhase(float u) {
     if (ANALYTIC_PHASE) return sampleHg(params.asymmetry, u, params.scatterFraction);
@@ -48,6 +50,9 @@ float densityNear(vec3 voxel, vec2 u) {
     near = clamp(near, ivec3(0), ivec3(params.size) - 1);  // a layer is as dense at its faces
     return densityOf(density, near, ivec3(params.size));
 }
+
+/// Of the photon's light, before its weight.
+vec3 powerOf(TraceState state) { return state.photon < params.sunPhotons ? params.sunPower : params.skyPower; }
 
 /// A real collision. False: the photon has ended. `scatters`: whether it goes on in another direction.
 bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint count, out bool scatters) {
@@ -90,6 +95,7 @@ void newDirection(inout TraceState state, inout Walk walk, bool enters, vec4 u, 
         walk.offset = clamp(point - vec3(walk.cell), 0.0, 1.0);
         state.weight = vec3(ofSun ? area / params.sunThrough : 1.0);
         if (ofMap) state.weight = skyWeight(cell, airPlace(params.air, voxel).y, area);
+        if (GROUND && !ofSun) state.weight *= skyOrGround(point, state.direction);
     }
 }
 
@@ -113,6 +119,7 @@ void main() {
         const bool enters = event == WALK_LEFT;
         if (enters) {
             if (state.alive != 0u) {
+                if (GROUND && state.collisions > 0u && bounce(state, walk, powerOf(state))) continue;
                 ++escaped;
                 if (PERIODIC) ++sides[walk.cell.y >= params.cells.y ? 0 : (state.collisions > 0u ? 1 : 2)];
                 endPhoton(state);

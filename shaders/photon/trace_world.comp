@@ -17,6 +17,7 @@ layout(constant_id = 1) const bool FORWARD_CUT = false;  // the forward peak of 
 layout(constant_id = 2) const bool ABSORBS = false;      // an albedo of some is below 1
 layout(constant_id = 4) const bool AXIS = false;         // the phase function of some has a backward peak
 layout(constant_id = 5) const bool AIR = false;          // an atmosphere: its light differs by direction and place
+layout(constant_id = 6) const bool GROUND = false;       // there is a ground below the clouds
 const bool PERIODIC = false;
 #include "lib/store.glsl"
 
@@ -26,7 +27,7 @@ layout(binding = 3, scalar) readonly buffer Grid { MergedGridParams storedGrid; 
 layout(binding = 4, scalar) readonly buffer InverseCdf { float inverseCdf[]; };
 layout(binding = 5, scalar) buffer States { TraceState states[]; };
 layout(binding = 7, scalar) buffer RecordCounts { uint recordCounts[]; };  // of each invocation
-layout(binding = 20, rgba32f) uniform readonly imageBuffer walkedInstances;
+layout(binding = 21, rgba32f) uniform readonly imageBuffer walkedInstances;
 
 /// Cells that a photon may cross before the lanes that have met something go on.
 const int CROSSINGS = 16;
@@ -35,6 +36,7 @@ const int CROSSINGS = 16;
 TraceParams params;
 MergedGridParams grid;
 #include "lib/photon.glsl"
+#include "lib/ground.glsl"
 
 /// Metres from the corner of the grid.
 vec3 metresOf(Walk walk) { return (vec3(walk.cell) + walk.offset) * grid.edge; }
@@ -86,6 +88,9 @@ bool storeIn(uint instance, vec3 voxel, vec3 direction, vec3 power, bool ofSun, 
     storeAt(its, floatBitsToUint(range.x) + collector, inside, direction, power, ofSun, place);
     return true;
 }
+
+/// Of the photon's light, before its weight.
+vec3 powerOf(TraceState state) { return state.photon < params.sunPhotons ? params.sunPower : params.skyPower; }
 
 /// A real collision. False: the photon has ended. `scatters`: whether it goes on in another direction.
 bool collide(inout TraceState state, uint instance, Walk walk, vec3 voxel, vec4 u, uint lane, inout uint count, out bool scatters) {
@@ -140,6 +145,7 @@ void newDirection(inout TraceState state, inout Walk walk, int instance, vec4 u,
         walk.offset = clamp(point - vec3(walk.cell), 0.0, 1.0);
         state.weight = vec3(area / grid.largestWeight);
         if (ofMap) state.weight = skyWeight(cell, airPlace(params.air, entry).y, area);
+        if (GROUND && !ofSun) state.weight *= skyOrGround(point, state.direction);
     }
 }
 
@@ -169,6 +175,7 @@ void main() {
         const bool enters = event == WALK_LEFT;
         if (enters) {
             if (state.alive != 0u) {
+                if (GROUND && state.collisions > 0u && bounce(state, walk, powerOf(state))) continue;
                 ++escaped;
                 endPhoton(state);
             }

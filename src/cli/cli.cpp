@@ -49,20 +49,24 @@ CLI::Option* addDevice(CLI::App& command, std::string& device) {
         ->check(notEmpty());
 }
 
+void addQuality(CLI::App& command, std::optional<scene::Quality>& quality) {
+    const std::map<std::string, scene::Quality> qualities{{"draft", scene::Quality::draft},
+                                                          {"interactive", scene::Quality::interactive},
+                                                          {"final", scene::Quality::final}};
+    command
+        .add_option_function<std::string>(
+            "--quality", [&quality, qualities](const std::string& name) { quality = qualities.at(name); },
+            "Preset for keys that the scene leaves out: draft, interactive or final")
+        ->check(CLI::IsMember({"draft", "interactive", "final"}));
+}
+
 void addRender(CLI::App& app, RenderOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("render", "Render a scene to pictures");
     command->add_option("scene", options.scene, sceneHelp)->required();
     command->add_option("-o,--output", options.outputs, "Picture: .exr (linear float layers) or .png; may repeat")
         ->required()
         ->allow_extra_args(false);
-    const std::map<std::string, scene::Quality> qualities{{"draft", scene::Quality::draft},
-                                                          {"interactive", scene::Quality::interactive},
-                                                          {"final", scene::Quality::final}};
-    command
-        ->add_option_function<std::string>(
-            "--quality", [&options, qualities](const std::string& name) { options.quality = qualities.at(name); },
-            "Preset for keys that the scene leaves out: draft, interactive or final")
-        ->check(CLI::IsMember({"draft", "interactive", "final"}));
+    addQuality(*command, options.quality);
     command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
         ->allow_extra_args(false);
     command->add_option("--seed", options.seed, "Seed of the random numbers (photon_map.seed)")->check(seedRange());
@@ -113,6 +117,8 @@ void addQuery(CLI::App& app, QueryOptions& options, Action& action) {
         ->check(notEmpty());
     command->add_option("--sun", options.sun, "Transmittance from points to the sun (.csv: x,y,z, metres)")
         ->check(notEmpty());
+    command->add_option("--ambient", options.ambient, "Light from all around points (.csv: x,y,z, metres)")
+        ->check(notEmpty());
     command
         ->add_option("--ground-shadow", options.rectangle,
                      "Transmittance of the sun over a level rectangle: X0,Z0,X1,Z1, metres")
@@ -123,6 +129,8 @@ void addQuery(CLI::App& app, QueryOptions& options, Action& action) {
     command->add_option("-o,--output", options.output, "Table, or picture (.exr) of a rectangle; default: stdout");
     command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
         ->allow_extra_args(false);
+    addQuality(*command, options.quality);
+    addDevice(*command, options.device);
     command->add_flag("--json", options.json, "As JSON");
     command->add_flag("--quiet", options.quiet, "No progress");
     command->footer(
@@ -312,10 +320,12 @@ void addThreads(CLI::App& app, std::optional<int>& threads) {
             ->check(CLI::Range(1, 1024));
 }
 
-ThreadUse useOf(const std::string& command, const InfoOptions& info, const SlabOptions& slab) {
+ThreadUse useOf(const std::string& command, const InfoOptions& info, const SlabOptions& slab,
+                const QueryOptions& query) {
     if (command == "serve") return ThreadUse::server;
     const bool device = command == "render" || command == "composite" || command == "bench" ||
-                        (command == "slab" && !slab.reference) || (command == "info" && info.devices);
+                        (command == "slab" && !slab.reference) || (command == "info" && info.devices) ||
+                        (command == "query" && !query.ambient.empty());
     return device ? ThreadUse::device : ThreadUse::host;
 }
 
@@ -365,7 +375,7 @@ void parseAndRun(int argc, const char* const* argv) {
         const std::string name = chosen.empty() ? "lumulus" : "lumulus " + chosen.front()->get_name();
         throw InputError(e.what(), "command line", "see " + name + " --help");
     }
-    limitThreads(threads, useOf(app.get_subcommands().front()->get_name(), info, slab));
+    limitThreads(threads, useOf(app.get_subcommands().front()->get_name(), info, slab, query));
     action();
 }
 

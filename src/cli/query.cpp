@@ -18,6 +18,8 @@
 #include "cli/clouds_told.h"
 #include "cli/output.h"
 #include "query/media.h"
+#include "render/ambient.h"
+#include "render/renderer.h"
 #include "scene/load.h"
 
 namespace lumulus::cli {
@@ -39,8 +41,8 @@ std::vector<query::Segment> readSegments(const std::filesystem::path& path) {
     return segments;
 }
 
-std::vector<glm::dvec3> readPoints(const std::filesystem::path& path) {
-    const NumberTable table = readNumberTable(path, pointColumns, mostRows);
+std::vector<glm::dvec3> readPoints(const std::filesystem::path& path, std::size_t most = mostRows) {
+    const NumberTable table = readNumberTable(path, pointColumns, most);
     std::vector<glm::dvec3> points;
     points.reserve(table.rows());
     for (std::size_t i = 0; i < table.rows(); ++i)
@@ -128,6 +130,70 @@ void answerWithPassages(const QueryOptions& options, const scene::Scene& scene) 
     write(options, options.json ? jsonOf(passages) : tableOf(passages));
 }
 
+/// Errors: InputError with the row of a point below the ground.
+void requireAboveGround(const std::vector<glm::dvec3>& points, const scene::Scene& scene, const QueryOptions& options) {
+    for (std::size_t i = 0; scene.ground && i < points.size(); ++i)
+        if (points[i].y < scene.ground->height)
+            throw InputError(fmt::format("y = {} is below the ground at {} m", points[i].y, scene.ground->height),
+                             fmt::format("{}, row {}", options.ambient.string(), i + 1), "raise the point");
+}
+
+/// Direct sunlight on a plane that faces the sun, then the coefficients, each R, G, B.
+std::vector<glm::dvec3> lightAt(Renderer& renderer, ViewState& state, const query::Media& media,
+                                const glm::dvec3& point) {
+    const scene::Sun& sun = renderer.sun();
+    const auto passage = query::towardsSun(media, std::span(&point, 1), sun.directionTo, stopIfInterrupted).front();
+    std::vector<glm::dvec3> values{sun.irradiance * passage.transmittance()};
+    for (const glm::dvec3& coefficient : ambientAt(renderer, state, point).coefficients) values.push_back(coefficient);
+    return values;
+}
+
+std::string ambientText(const std::vector<std::vector<glm::dvec3>>& lights, bool json) {
+    std::string text = json ? "{\"points\": [" : "sun_r,sun_g,sun_b";
+    for (int i = 0; !json && i < 9; ++i) text += fmt::format(",sh{0}_r,sh{0}_g,sh{0}_b", i);
+    if (!json) text += "\n";
+    for (std::size_t p = 0; p < lights.size(); ++p) {
+        if (json) text += p > 0 ? "," : "";
+        for (std::size_t i = 0; i < lights[p].size(); ++i) {
+            const glm::dvec3& v = lights[p][i];
+            const char* before = i == 0 ? "\n  {\"sun\": " : (i == 1 ? ", \"sh\": [" : ", ");
+            text += json ? fmt::format("{}[{:.9g}, {:.9g}, {:.9g}]", before, v.r, v.g, v.b)
+                         : fmt::format("{}{:.9g},{:.9g},{:.9g}", i > 0 ? "," : "", v.r, v.g, v.b);
+        }
+        text += json ? "]}" : "\n";
+    }
+    return json ? text + "\n]}\n" : text;
+}
+
+void answerWithAmbient(const QueryOptions& options, scene::Scene scene) {
+    constexpr std::size_t most = 100000;
+    const std::vector<glm::dvec3> points = readPoints(options.ambient, most);
+    requireAboveGround(points, scene, options);
+    scene.sun.angularDiameter = 0.0;  // its light is told apart
+    Steps steps(options.quiet);
+    RendererOptions wanted;
+    wanted.device = options.device;
+    wanted.report = [&steps](std::string_view step, std::uint64_t done, std::uint64_t total) {
+        if (step != "drawing" && step != "fog") steps.report(step, done, total);  // of each point
+    };
+    Renderer renderer(scene, wanted);
+    tellClouds({}, renderer.statistics().warnings, options.quiet);
+    const auto generations = static_cast<std::uint64_t>(renderer.generationsWanted());
+    for (std::uint64_t i = 0; i < generations; ++i) {
+        steps.report("tracing photons", i, generations);
+        renderer.traceGeneration();
+    }
+    if (generations > 0) steps.report("tracing photons", generations, generations);
+    ViewState state;
+    const query::Media media = renderer.media();
+    std::vector<std::vector<glm::dvec3>> lights;
+    for (const glm::dvec3& point : points) {
+        stopIfInterrupted();
+        lights.push_back(lightAt(renderer, state, media, point));
+    }
+    write(options, ambientText(lights, options.json));
+}
+
 void answerWithShadow(const QueryOptions& options, const scene::Scene& scene) {
     const query::Rectangle rectangle = rectangleOf(options, scene);
     Steps steps(options.quiet);
@@ -144,18 +210,20 @@ void answerWithShadow(const QueryOptions& options, const scene::Scene& scene) {
 
 void runQuery(const QueryOptions& options) {
     const bool shadow = !options.rectangle.empty();
-    const int subjects = (options.segments.empty() ? 0 : 1) + (options.sun.empty() ? 0 : 1) + (shadow ? 1 : 0);
+    const int subjects = (options.segments.empty() ? 0 : 1) + (options.sun.empty() ? 0 : 1) +
+                         (options.ambient.empty() ? 0 : 1) + (shadow ? 1 : 0);
     if (subjects != 1)
         throw InputError("query needs exactly one subject", "command line",
-                         "give --segments, --sun or --ground-shadow");
+                         "give --segments, --sun, --ambient or --ground-shadow");
     if (shadow && options.output.empty())
         throw InputError("a shadow is a picture", "command line", "give a file: -o shadow.exr");
     if (shadow) requireSuffix(options.output, {".exr"});
     if (!options.output.empty()) checkPlaces({options.output});
-    const auto& table = options.sun.empty() ? options.segments : options.sun;
-    if (options.scene == "-" && table == "-")
+    const bool table = options.segments == "-" || options.sun == "-" || options.ambient == "-";
+    if (options.scene == "-" && table)
         throw InputError("standard input cannot be both scene and table", "command line", "give a file for one");
-    const scene::Scene scene = scene::loadScene(options.scene, options.overrides);
+    const scene::Scene scene = scene::loadScene(options.scene, options.overrides, options.quality);
+    if (!options.ambient.empty()) return answerWithAmbient(options, scene);
     shadow ? answerWithShadow(options, scene) : answerWithPassages(options, scene);
 }
 

@@ -5,17 +5,22 @@
 #include <string>
 #include <vector>
 
+#include "scene/quality.h"
+
 namespace lumulus::cli {
 
 struct QueryOptions {
     std::filesystem::path scene;
     std::filesystem::path segments;  ///< table of segments; empty: not asked for
     std::filesystem::path sun;       ///< table of points; empty: not asked for
+    std::filesystem::path ambient;   ///< table of points; empty: not asked for
     std::vector<double> rectangle;   ///< x0, z0, x1, z1 [m]; empty: not asked for
     std::string size = "512x512";    ///< of the rectangle, pixels
     std::optional<double> height;    ///< of the rectangle [m]; absent: that of the ground
     std::filesystem::path output;    ///< empty: stdout
     std::vector<std::string> overrides;
+    std::optional<scene::Quality> quality;  ///< of the photons, for ambient light
+    std::string device;
     bool json = false;
     bool quiet = false;
 };

@@ -80,6 +80,15 @@ void Clouds::split(std::size_t first, std::size_t count) {
     split(first + half, count - half);
 }
 
+Clouds Clouds::movedBy(const glm::dvec3& way) const {
+    std::vector<PlacedField> moved;
+    for (const Part& part : parts_) {
+        moved.push_back(part.placed);
+        moved.back().origin += way;
+    }
+    return Clouds(std::move(moved));
+}
+
 std::uint64_t Clouds::bytes() const {
     std::set<const BrickField*> fields;
     for (const Part& part : parts_) fields.insert(part.placed.field.get());

@@ -41,6 +41,8 @@ class Clouds {
     explicit Clouds(std::vector<PlacedField> fields);
 
     std::size_t size() const { return parts_.size(); }
+    /// The same clouds, all moved by so far [m].
+    Clouds movedBy(const glm::dvec3& way) const;
     /// Memory of the different fields.
     std::uint64_t bytes() const;
     /// The box of all of them; absent where there is none.

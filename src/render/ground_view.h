@@ -5,6 +5,7 @@
 
 #include "base/interrupt.h"
 #include "fog/screen/fog.h"
+#include "light/photon/ground.h"
 #include "render/gpu_work.h"
 #include "render/world.h"
 #include "surface/ground_light.h"
@@ -15,21 +16,31 @@ namespace lumulus {
 /// The ground of a world as pictures show it: its light is made anew where sun or clouds have changed.
 class GroundView {
   public:
+    /// `interactive`: the sun moves from picture to picture, and its shadow has fewer nodes.
+    explicit GroundView(bool interactive) : sunNodes_(interactive ? 8192.0 : 65536.0) {}
+
     /// Brings the light on the ground up to date. Errors: what `check` throws.
     const surface::GroundLight& light(gpu::Context& context, World& world, const Check& check);
+    /// The ground for the photons of the next generation. Errors: as above.
+    photon::Ground forPhotons(gpu::Context& context, World& world, const Check& check);
 
   private:
-    /// What the light on the ground depends on.
-    struct Cause {
-        glm::dvec3 directionTo{0.0}, irradiance{0.0};
-        std::vector<glm::dvec3> places;
+    /// What the shares of sun and sky that arrive depend on.
+    struct Clouds {
+        std::vector<glm::dvec3> places;  ///< of all from the first
         std::vector<double> extinctions;
+        double height = 0.0;  ///< of the first
 
-        bool operator==(const Cause&) const = default;
+        bool operator==(const Clouds&) const = default;
     };
 
+    void update(gpu::Context& context, World& world, const Check& check);
+
     std::optional<surface::GroundLight> light_;
-    Cause cause_;
+    Clouds clouds_;
+    glm::dvec3 first_{0.0};  ///< where the first cloud was
+    std::optional<scene::Sun> sun_;
+    double sunNodes_;
 };
 
 /// Throws InputError where a camera is below the ground.
@@ -40,7 +51,7 @@ std::vector<glm::vec4> groundThroughFog(fog::Fog& fog, const Camera& camera,
                                         const std::vector<surface::GroundPixel>& ground, const glm::dvec3& sky,
                                         const std::vector<shared::SunPixel>& sun);
 
-/// Puts what is behind the clouds into a part of a picture of that width: R, G, B = cloud + transmittance · behind.
+/// Puts what is behind the clouds into a part of a picture of that width: R, G, B = cloud + (1 − alpha) · behind.
 void layBehind(LayeredImage& image, const std::vector<glm::vec4>& behind, const Tile& part, int width);
 
 }  // namespace lumulus

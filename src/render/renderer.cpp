@@ -89,7 +89,7 @@ Renderer::Renderer(const scene::Scene& scene, const Renderer& other, const Rende
 void Renderer::State::makePainters(const scene::Scene& scene) {
     statistics.device = context.device().name;
     if (!scene.fog.media.empty()) fog.emplace(context, scene.fog, check);
-    if (scene.ground) ground.emplace();
+    if (scene.ground) ground.emplace(keepRing);
     for (const auto& asset : world->assets) statistics.collectors += asset->collectors.size();
     if (!world->visible().empty()) painter.emplace(context, *world, scene.draw);
 }
@@ -107,8 +107,10 @@ void Renderer::traceGeneration() {
 bool Renderer::traceGeneration(const CutOff& cutOff) {
     State& s = *state_;
     const Stopwatch watch;
+    std::optional<photon::Ground> ground;
+    if (s.ground && s.world->photons) ground = s.ground->forPhotons(s.context, *s.world, s.check);
     s.tracesLightOfNow = true;
-    const bool finished = traceAll(*s.world, cutOff);
+    const bool finished = traceAll(*s.world, cutOff, ground ? &*ground : nullptr);
     if (finished && s.tracesLightOfNow) ++s.sinceChange;
     s.statistics.traceSeconds += watch.seconds();
     return finished;
@@ -284,7 +286,20 @@ bool Renderer::setWind(const glm::dvec3& velocity) {
 }
 
 void Renderer::setTime(double seconds) {
-    setOffset(seconds * state_->world->wind);
+    const glm::dvec3 drift = seconds * state_->world->wind;
+    setOffset(drift);
+    for (const auto& [cloud, way] : state_->moved) setOffset(drift + way, cloud);
+}
+
+bool Renderer::moveCloud(const glm::dvec3& way, std::size_t cloud) {
+    State& s = *state_;
+    const auto place = s.moved.try_emplace(cloud, glm::dvec3(0.0)).first;
+    if (place->second == way) return false;
+    setOffset(s.world->instances.at(cloud).offset + way - place->second, cloud);
+    place->second = way;
+    const bool seen = s.world->visible().size() > 1 || s.ground;
+    if (seen) s.lightChanged();
+    return true;
 }
 
 query::Media Renderer::media() {

@@ -156,6 +156,9 @@ class Renderer {
     bool sharpenSun(double share);
     /// Moves the clouds from where the scene has them [m]; light from infinity does not see it.
     void setOffset(const glm::dvec3& offset, std::optional<std::size_t> cloud = {});
+    /// Lets a cloud lie by so much from where the scene has it [m], besides what setTime() adds. Photons of before age
+    /// out where others see it. Returns whether it moved.
+    bool moveCloud(const glm::dvec3& way, std::size_t cloud);
     /// Sets the velocity with which the clouds drift [m/s]. Returns whether it changed.
     bool setWind(const glm::dvec3& velocity);
     /// Moves the clouds to where the wind has carried them at this time [s]; at 0 they are where the scene has them.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -37,6 +38,7 @@ struct Renderer::State {
     std::optional<Painter> painter;
     std::optional<fog::Fog> fog;
     std::optional<GroundView> ground;
+    std::map<std::size_t, glm::dvec3> moved;  ///< ways of the clouds that do not lie where the scene has them [m]
     int sunAllowed = 1;             ///< reduction of shadow volumes
     int sinceChange = 0;            ///< generations under the light of now
     bool tracesLightOfNow = false;  ///< the generation that is traced is one of them

@@ -9,6 +9,7 @@
 #include "base/stopwatch.h"
 #include "cloud/bricks.h"
 #include "light/light_field.h"
+#include "light/photon/ground.h"
 #include "medium/fog_media.h"
 #include "medium/phase_note.h"
 #include "render/importance.h"
@@ -169,6 +170,7 @@ photon::Options Maker::photonOptions() const {
     options.bands = wanted.bands;
     options.seed = wanted.seed;
     options.keepRing = options_.keepRing;
+    options.ground = scene_.ground && world_.lights.environment.atmosphere() == nullptr;
     options.splitGenerations = options_.progressive;
     options.check = options_.check;
     options.air = world_.lights.environment.atmosphere() != nullptr;
@@ -274,7 +276,7 @@ void placeInstances(World& world) {
     if (world.photons && visible.size() > 1) world.photons->place(placements(world, visible));
 }
 
-bool traceAll(World& world, const CutOff& cutOff) {
+bool traceAll(World& world, const CutOff& cutOff, const photon::Ground* ground) {
     if (world.photons) {
         const std::vector<std::size_t> visible = world.visible();
         const cloud::Instance& first = world.instances[visible.front()];
@@ -287,6 +289,11 @@ bool traceAll(World& world, const CutOff& cutOff) {
             if (air != nullptr) sun.irradiance *= air->mostSun;
         } else {
             sun = only.sun;
+        }
+        if (ground != nullptr) {
+            photon::Ground below = *ground;
+            below.corner = visible.size() > 1 ? world.photons->corner() : first.origin + first.offset;
+            world.photons->setGround(below);
         }
         if (!world.photons->tryTrace(sun, world.lights.environment, cutOff, first.medium.extinction, air)) return false;
         world.photons->keep();

@@ -77,6 +77,7 @@ void findReachingLight(World& world);
 void placeInstances(World& world);
 
 /// Traces a generation of photons through all clouds. Returns false where `cutOff` ended it: it does not count then.
-bool traceAll(World& world, const CutOff& cutOff);
+/// `ground`: that of the scene, null where it has none.
+bool traceAll(World& world, const CutOff& cutOff, const photon::Ground* ground);
 
 }  // namespace lumulus

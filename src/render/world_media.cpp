@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 #include <span>
@@ -38,19 +39,31 @@ std::shared_ptr<const query::BrickField> readBack(gpu::Context& context, const c
     return std::make_shared<const query::BrickField>(volume, check);
 }
 
-}  // namespace
-
-query::Media mediaOf(gpu::Context& context, World& world, const Check& check) {
+template <class Extinction>
+query::Media mediaWith(gpu::Context& context, World& world, const Check& check, const Extinction& extinctionOf) {
     std::vector<query::PlacedField> placed;
     for (const std::size_t i : world.visible()) {
         const cloud::Instance& instance = world.instances[i];
         std::shared_ptr<const query::BrickField>& field = world.fields[instance.asset];
         if (!field) field = readBack(context, *instance.asset, check);
         placed.push_back(
-            {field, instance.voxelToMetres, instance.origin + instance.offset, instance.medium.extinction});
+            {field, instance.voxelToMetres, instance.origin + instance.offset, extinctionOf(instance.medium)});
     }
     return {query::Clouds(std::move(placed)), world.fog,
             world.lights.ground ? std::optional(world.lights.ground->height) : std::nullopt};
+}
+
+}  // namespace
+
+query::Media mediaOf(gpu::Context& context, World& world, const Check& check) {
+    return mediaWith(context, world, check, [](const phase::ScatteringMedium& medium) { return medium.extinction; });
+}
+
+query::Media straightMediaOf(gpu::Context& context, World& world, const Check& check) {
+    return mediaWith(context, world, check, [](const phase::ScatteringMedium& medium) {
+        const double least = std::min(medium.albedo.x, std::min(medium.albedo.y, medium.albedo.z));
+        return medium.extinction * (1.0 - static_cast<double>(medium.tables.forwardFraction) * least);
+    });
 }
 
 }  // namespace lumulus

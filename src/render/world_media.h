@@ -10,4 +10,8 @@ namespace lumulus {
 /// question has needed them yet, and stay with the world. Errors: what `check` throws.
 query::Media mediaOf(gpu::Context& context, World& world, const Check& check);
 
+/// The same for light that the photon walk takes for straight: what scatters by less than `forward_cut` goes on, as far
+/// as no channel absorbs it.
+query::Media straightMediaOf(gpu::Context& context, World& world, const Check& check);
+
 }  // namespace lumulus

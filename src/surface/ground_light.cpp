@@ -14,7 +14,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double mostSunNodes = 65536.0;
 constexpr int skyNodes = 48;      // along each side
 constexpr int skyRays = 64;       // of a node
 constexpr double skyReach = 2.0;  // around the clouds, in their heights above the ground
@@ -87,25 +86,6 @@ glm::dvec3 skyShare(const query::Media& media, const glm::dvec3& point, int x, i
     return sum / static_cast<double>(skyRays);
 }
 
-/// Binomial weights over 3 × 3 nodes.
-void smooth(GroundGrid& grid) {
-    const std::vector<glm::vec3> from = grid.values;
-    const auto get = [&](int x, int z) {
-        const glm::ivec2 n = glm::clamp(glm::ivec2(x, z), glm::ivec2(0), grid.nodes - 1);
-        return from[static_cast<std::size_t>(n.y) * static_cast<std::size_t>(grid.nodes.x) +
-                    static_cast<std::size_t>(n.x)];
-    };
-    std::size_t i = 0;
-    for (int z = 0; z < grid.nodes.y; ++z)
-        for (int x = 0; x < grid.nodes.x; ++x, ++i) {
-            glm::vec3 sum(0.0F);
-            for (int a = -1; a <= 1; ++a)
-                for (int b = -1; b <= 1; ++b)
-                    sum += get(x + a, z + b) * ((a == 0 ? 0.5F : 0.25F) * (b == 0 ? 0.5F : 0.25F));
-            grid.values[i] = sum;
-        }
-}
-
 }  // namespace
 
 glm::dvec2 GroundGrid::node(int x, int z) const {
@@ -127,41 +107,79 @@ glm::dvec3 GroundGrid::at(const glm::dvec2& place) const {
                     glm::mix(get(first.x, first.y + 1), get(first.x + 1, first.y + 1), f.x), f.y);
 }
 
-GroundLight::GroundLight(const scene::Ground& ground, const query::Media& media, const scene::Sun& sun,
-                         const glm::dvec3& sky, const Check& check)
-    : ground_(ground), openSun_(sun.irradiance * std::max(0.0, sun.directionTo.y)), openSky_(pi * sky) {
-    const double height = ground.height;
-    const auto pointAt = [height](const glm::dvec2& place) { return glm::dvec3(place.x, height, place.y); };
-    query::Media fogAlone{{}, media.fog, {}};
-    if (sun.directionTo.y > 0.0)
-        sun_.outside = glm::vec3(fogAlone.along({pointAt({0.0, 0.0}), sun.directionTo}).transmittance());
-    if (!media.fog.media.empty()) sky_.outside = glm::vec3(skyShare(fogAlone, pointAt({0.0, 0.0}), 0, 0));
+void GroundGrid::smooth() {
+    const std::vector<glm::vec3> from = values;
+    const auto get = [&](int x, int z) {
+        const glm::ivec2 n = glm::clamp(glm::ivec2(x, z), glm::ivec2(0), nodes - 1);
+        return from[static_cast<std::size_t>(n.y) * static_cast<std::size_t>(nodes.x) + static_cast<std::size_t>(n.x)];
+    };
+    std::size_t i = 0;
+    for (int z = 0; z < nodes.y; ++z)
+        for (int x = 0; x < nodes.x; ++x, ++i) {
+            glm::vec3 sum(0.0F);
+            for (int a = -1; a <= 1; ++a)
+                for (int b = -1; b <= 1; ++b)
+                    sum += get(x + a, z + b) * ((a == 0 ? 0.5F : 0.25F) * (b == 0 ? 0.5F : 0.25F));
+            values[i] = sum;
+        }
+}
+
+GroundLight::GroundLight(const scene::Ground& ground, const query::Media& media, const glm::dvec3& sky,
+                         const Check& check)
+    : ground_(ground), openSky_(pi * sky) {
+    clouds_.outside = glm::vec3(0.0F);
+    const glm::dvec3 foot(0.0, ground.height, 0.0);
+    if (!media.fog.media.empty()) sky_.outside = glm::vec3(skyShare({{}, media.fog, {}}, foot, 0, 0));
     const std::optional<query::Extent> clouds = media.clouds.extent();
-    if (!clouds || clouds->upper.y <= height) return;
-    const double finest = media.clouds.finestVoxel();
-    if (openSun_ != glm::dvec3(0.0)) {
-        sun_ = {gridOver(shadowExtent(*clouds, height, sun.directionTo), finest, mostSunNodes)};
-        fill(
-            sun_,
-            [&](int x, int z) {
-                return media.along({pointAt(sun_.node(x, z)), sun.directionTo}).transmittance();
-            },
-            check);
-    }
-    if (openSky_ == glm::dvec3(0.0)) return;
-    const double reach = skyReach * (clouds->upper.y - height);
+    if (!clouds || clouds->upper.y <= ground.height || openSky_ == glm::dvec3(0.0)) return;
+    const double reach = skyReach * (clouds->upper.y - ground.height);
     const Extent around{glm::dvec2(clouds->lower.x, clouds->lower.z) - reach,
                         glm::dvec2(clouds->upper.x, clouds->upper.z) + reach};
     const glm::vec3 outside = sky_.outside;
-    sky_ = gridOver(around, finest, skyNodes * skyNodes);
+    sky_ = gridOver(around, media.clouds.finestVoxel(), skyNodes * skyNodes);
     sky_.outside = outside;
     fill(
-        sky_, [&](int x, int z) { return skyShare(media, pointAt(sky_.node(x, z)), x, z); }, check);
-    smooth(sky_);
+        sky_, [&](int x, int z) { return skyShare(media, onGround(sky_.node(x, z)), x, z); }, check);
+    sky_.smooth();
+}
+
+glm::dvec3 GroundLight::onGround(const glm::dvec2& place) const {
+    return {place.x, ground_.height, place.y};
+}
+
+void GroundLight::setSun(const query::Media& media, const scene::Sun& sun, double nodes, const Check& check) {
+    openSun_ = sun.irradiance * std::max(0.0, sun.directionTo.y);
+    sun_ = {};
+    if (openSun_ == glm::dvec3(0.0)) return;
+    const glm::vec3 outside(
+        query::Media{{}, media.fog, {}}.along({onGround({0.0, 0.0}), sun.directionTo}).transmittance());
+    const std::optional<query::Extent> clouds = media.clouds.extent();
+    if (clouds && clouds->upper.y > ground_.height) {
+        sun_ = gridOver(shadowExtent(*clouds, ground_.height, sun.directionTo), media.clouds.finestVoxel(), nodes);
+        fill(
+            sun_,
+            [&](int x, int z) {
+                return media.along({onGround(sun_.node(x, z)), sun.directionTo}).transmittance();
+            },
+            check);
+    }
+    sun_.outside = outside;
+}
+
+glm::dvec3 GroundLight::directRadiance(const glm::dvec2& place) const {
+    return ground_.albedo / pi * (openSun_ * sun_.at(place - drift_) + openSky_ * sky_.at(place - drift_));
+}
+
+glm::dvec3 GroundLight::openRadiance() const {
+    return ground_.albedo / pi * (openSun_ * glm::dvec3(sun_.outside) + openSky_ * glm::dvec3(sky_.outside));
 }
 
 glm::dvec3 GroundLight::radiance(const glm::dvec2& place) const {
-    return ground_.albedo / pi * (openSun_ * sun_.at(place) + openSky_ * sky_.at(place));
+    return directRadiance(place) + ground_.albedo / pi * clouds_.at(place);
+}
+
+void GroundLight::setClouds(GroundGrid irradiance) {
+    clouds_ = std::move(irradiance);
 }
 
 }  // namespace lumulus::surface

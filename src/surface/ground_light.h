@@ -18,24 +18,40 @@ struct GroundGrid {
 
     glm::dvec2 node(int x, int z) const;
     glm::dvec3 at(const glm::dvec2& place) const;
+    /// Averages with binomial weights over 3 × 3 nodes.
+    void smooth();
 };
 
 /// Light that falls on the ground of a scene, straight from the sun and straight from the sky, through all that is
-/// above it. Valid for one sun and for clouds that stay where they are.
+/// above it. Valid for clouds that stay where they are against each other, and at their height.
 class GroundLight {
   public:
-    /// `sky` is the radiance of a sky that is the same everywhere [W/(m² sr)]. Errors: what `check` throws.
-    GroundLight(const scene::Ground& ground, const query::Media& media, const scene::Sun& sun, const glm::dvec3& sky,
-                const Check& check);
+    /// Under a sky of a radiance that is the same everywhere [W/(m² sr)], without a sun. Errors: what `check` throws.
+    GroundLight(const scene::Ground& ground, const query::Media& media, const glm::dvec3& sky, const Check& check);
 
+    /// Sets the sun, of which the shadow is known at about so many nodes. Errors: as above.
+    void setSun(const query::Media& media, const scene::Sun& sun, double nodes, const Check& check);
+    /// Moves the shadows by so far along x and z from where they were made [m].
+    void setDrift(const glm::dvec2& drift) { drift_ = drift; }
+
+    const scene::Ground& ground() const { return ground_; }
     double height() const { return ground_.height; }
     /// Radiance of the ground at a place, the same in all directions [W/(m² sr)].
     glm::dvec3 radiance(const glm::dvec2& place) const;
+    /// The same without the light that clouds send down, and where nothing is above.
+    glm::dvec3 directRadiance(const glm::dvec2& place) const;
+    glm::dvec3 openRadiance() const;
+    /// Sets the irradiance by light that clouds send down [W/m²].
+    void setClouds(GroundGrid irradiance);
 
   private:
+    glm::dvec3 onGround(const glm::dvec2& place) const;
+
     scene::Ground ground_;
-    glm::dvec3 openSun_, openSky_;  ///< irradiance without anything above [W/m²]
-    GroundGrid sun_, sky_;          ///< shares of it that arrive
+    glm::dvec3 openSun_{0.0}, openSky_;  ///< irradiance without anything above [W/m²]
+    glm::dvec2 drift_{0.0};
+    GroundGrid sun_, sky_;  ///< shares of it that arrive
+    GroundGrid clouds_;     ///< irradiance [W/m²]
 };
 
 }  // namespace lumulus::surface

@@ -86,6 +86,29 @@ class Query(CliTest):
         self.assertLess(layers["R"][10 * 30 + 15], 0.5 * layers["R"][0])
         self.assertIn("at -50 m", attributes["rectangle"])
 
+    def test_ambient(self):
+        scene = '[sun]\nazimuth = 90.0\nelevation = 30.0\nirradiance = 2.0\n[sky]\nradiance = [1.0, 2.0, 3.0]\n'
+        open_sky = self.scene(scene)
+        table = self.table("x,y,z\n0,10,0\n0,100,0\n")
+        rows = self.rows(self.ask("--ambient", table))
+        for row in rows:
+            self.assertEqual([row[f"sun_{c}"] for c in "rgb"], [2, 2, 2])
+            for channel, radiance in (("r", 1), ("g", 2), ("b", 3)):
+                self.assertAlmostEqual(row[f"sh0_{channel}"], radiance * math.sqrt(4 * math.pi), delta=1e-4)
+                for i in range(1, 9):
+                    self.assertAlmostEqual(row[f"sh{i}_{channel}"], 0, delta=0.02)
+        points = json.loads(self.ask("--ambient", table, "--json"))["points"]
+        self.assertEqual([points[0]["sh"][i][0] for i in range(9)], [rows[0][f"sh{i}_r"] for i in range(9)])
+        # above a black ground the lower half is dark; in a cloud there is light, and less sun
+        self.scene(scene + '[ground]\nalbedo = 0.0\n[[cloud]]\nprocedural = "sphere"\nresolution = 16\n'
+                   'extinction = 0.02\n[photon_map]\nphotons = 20000\ngenerations = 2\n[preparation]\nsamples = 500\n')
+        aside, inside = self.rows(self.ask("--ambient", self.table("2000,10,0\n0,100,0\n")))
+        self.assertAlmostEqual(aside["sh1_r"], 1.5 * aside["sh0_r"] / math.sqrt(3), delta=0.05)
+        self.assertLess(inside["sun_r"], 0.5 * aside["sun_r"])
+        self.assertGreater(inside["sh0_r"], 0.3 * aside["sh0_r"])
+        self.assertEqual(open_sky, self.path)
+        self.rejected("query", self.path, "--ambient", self.table("0,1,0\n0,-1,0\n"), says="row 2")
+
     def test_bad_tables(self):
         for text, says in (("1,2,3,4,5\n", "table.csv:1): each row has the numbers x0,y0,z0,x1,y1,z1"),
                            ("x0,y0,z0,x1,y1,z1\n1,2,3,4,5,six\n", 'z1 = "six" is no number'),

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -110,6 +111,60 @@ TEST(RendererGround, IsSeenThroughFog) {
     const double wanted =
         scene.ground->albedo.x / pi * scene.sun.irradiance.x * std::exp(-1e-3 * (700.0 + scene.fog.skyDistance));
     EXPECT_NEAR(middleOf(frame.image, "R"), wanted, 1e-3 * wanted);
+}
+
+/// A white ground and a cloud that only scatters, in a sky of one colour, are not seen: what the ground sends up, what
+/// clouds send down and what is left of the sky add up everywhere.
+void expectFurnace(scene::Scene scene) {
+    scene.ground->albedo = dvec3(1.0);
+    scene.sun.irradiance = dvec3(0.0);
+    scene.sky.radiance = dvec3(0.5, 1.0, 2.0);
+    scene.photonMap.photons = 400000;
+    const Frame frame = test::render(scene);
+    const char* names[3] = {"R", "G", "B"};
+    for (int c = 0; c < 3; ++c) {
+        double sum = 0.0, worst = 0.0;
+        for (const float value : frame.image.layers.at(names[c])) {
+            sum += value;
+            worst = std::max(worst, std::abs(value / scene.sky.radiance[c] - 1.0));
+        }
+        EXPECT_NEAR(sum / static_cast<double>(frame.image.pixels()) / scene.sky.radiance[c], 1.0, 0.006);
+        EXPECT_LT(worst, 0.12);
+    }
+}
+
+TEST(RendererGround, IsNotSeenInAWhiteFurnace) {
+    scene::Scene scene = groundScene(-20.0);
+    scene.camera.position->y = 400.0;
+    scene.clouds[0].extinction = 0.03;
+    expectFurnace(scene);
+    scene.clouds[0].phase.g = 0.5;
+    scene.photonMap.forwardCut = 15.0;  // light that goes nearly straight on counts as straight
+    expectFurnace(scene);
+}
+
+TEST(RendererGround, IsNotSeenInAWhiteFurnaceOfTwoClouds) {
+    scene::Scene scene = groundScene(-20.0);
+    scene.camera.position->y = 400.0;
+    scene.clouds[0].extinction = 0.03;
+    scene.clouds.push_back(scene.clouds[0]);
+    scene.clouds[1].transform[3] = glm::dvec4(180.0, 60.0, 40.0, 1.0);
+    expectFurnace(scene);
+}
+
+TEST(RendererGround, LightsTheBasesOfClouds) {
+    scene::Scene scene = groundScene(-50.0);
+    scene.camera.position = dvec3(0.0, -40.0, 400.0);
+    scene.camera.target = dvec3(0.0, 50.0, 0.0);
+    scene.photonMap.photons = 40000;
+    const auto cloudIn = [&](const dvec3& albedo) {
+        scene.ground->albedo = albedo;
+        const Frame frame = test::render(scene);
+        double sum = 0.0;
+        for (const float value : frame.image.layers.at("cloud.R")) sum += value;
+        return sum;
+    };
+    EXPECT_GT(cloudIn(dvec3(0.8)), 1.2 * cloudIn(dvec3(0.0)));
 }
 
 TEST(RendererGround, RefusesACameraBelowIt) {

@@ -109,5 +109,63 @@ class Queries(ServiceTest):
                 thread.join()
 
 
+TWO_CLOUDS = """
+[[cloud]]
+name = "west"
+procedural = "sphere"
+resolution = 16
+extinction = 0.03
+[[cloud]]
+name = "east"
+procedural = "sphere"
+resolution = 16
+transform = [[1, 0, 0, 1000], [0, 1, 0, 0], [0, 0, 1, 0]]
+extinction = 0.03
+[preparation]
+samples = 200
+[photon_map]
+photons = 8000
+generations = 2
+bands = 2
+"""
+
+
+class Moving(ServiceTest):
+    def depth(self, client, x):
+        """Optical depth from below to above at x."""
+        return floats(client.query("segments", doubles(x, -500, 0, x, 500, 0))[1])[3]
+
+    def test_a_cloud_moves_by_name(self):
+        with self.server.client() as client, self.server.client() as other:
+            for one in (client, other):
+                one.load_scene(toml=TWO_CLOUDS)
+            whole = self.depth(client, 0)
+            self.assertGreater(whole, 3)
+            generations = client.frame(width=32, height=24).info["current_generations"]
+            self.assertEqual(generations, 2)
+            client.change(cloud="west", move=[500, 0, 0])
+            self.assertEqual(self.depth(client, 0), 0)
+            self.assertAlmostEqual(self.depth(client, 500), whole, delta=1e-3 * whole)
+            self.assertAlmostEqual(self.depth(client, 1000), whole, delta=1e-3 * whole)
+            self.assertAlmostEqual(self.depth(other, 0), whole, delta=1e-6)
+            # a picture from above shows it at its new place; the photons of before give way
+            camera = {"position": [500, 3000, 0], "target": [500, 0, 0], "vertical_fov": 3}
+            frame = client.frame(width=32, height=24, camera=camera, products=["transmittance"], encoding="float",
+                                 budget={"photons": 1})
+            self.assertLess(frame.values("transmittance")[12, 16, 0], 0.2)
+            client.change(cloud="west", extinction=1e-9)
+            self.assertLess(self.depth(client, 500), 1e-4)
+            client.change(cloud="west", move=[0, 0, 0], extinction=0.03)
+            self.assertAlmostEqual(self.depth(client, 0), whole, delta=1e-3 * whole)
+
+    def test_refusals(self):
+        with self.server.client() as client:
+            for fields, code in (({"move": [1, 2, 3]}, "bad_request"), ({"move": [1, 2, 3], "cloud": "no"}, "not_found"),
+                                 ({"move": [1, 2], "cloud": 0}, "bad_request")):
+                with self.assertRaises(ServiceError) as caught:
+                    client.change(**fields)
+                self.assertEqual(caught.exception.code, code)
+
+
 if __name__ == "__main__":
     unittest.main()

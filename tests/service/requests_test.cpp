@@ -198,6 +198,9 @@ TEST(Requests, AChangeMayNameTheCloudOfItsExtinction) {
     EXPECT_EQ(refusal(request(MessageType::change, R"({"extinction":0.1,"cloud":-1})")), "bad_request: cloud");
     EXPECT_EQ(refusal(request(MessageType::change, R"({"extinction":0.1,"cloud":[0]})")), "bad_request: cloud");
     EXPECT_EQ(refusal(request(MessageType::change, R"({"wind":[1,0,0],"cloud":0})")), "bad_request: cloud");
+    EXPECT_EQ(change(R"({"move":[1,2,3],"cloud":"west"})").light.move, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(refusal(request(MessageType::change, R"({"move":[1,2,3]})")), "bad_request: move");
+    EXPECT_EQ(refusal(request(MessageType::frame, R"({"move":[1,2,3]})")), "bad_request: move");
     EXPECT_EQ(refusal(request(MessageType::frame, R"({"extinction":0.1,"cloud":0})")), "bad_request: cloud");
 }
 

@@ -51,6 +51,7 @@ namespace spirv {
 #include "spirv/light/shared_shadow.comp.h"
 #include "spirv/photon/accumulate.comp.h"
 #include "spirv/photon/gather.comp.h"
+#include "spirv/photon/ground_counts.comp.h"
 #include "spirv/photon/reconstruct.comp.h"
 #include "spirv/photon/trace.comp.h"
 #include "spirv/photon/trace_world.comp.h"
@@ -121,6 +122,8 @@ TEST(SharedLayout, Photon) {
     EXPECT_LAYOUT(trace_comp, PhotonRecord, collector, direction, power);
     EXPECT_LAYOUT(trace_comp, TraceCounters, events, nulls, absorbed, escaped, lost, records, reflected,
                   transmittedDiffuse, transmittedDirect, pending, unused);
+    EXPECT_LAYOUT(trace_comp, GroundParams, cellsToWorld, origin, extent, cells, albedo, open, sky, countBase);
+    EXPECT_PUSH(ground_counts_comp, GroundCountsPush, base, count, unit);
     EXPECT_PUSH(gather_comp, GatherPush, collectors, invocations, recordCapacity);
     EXPECT_PUSH(accumulate_comp, AccumulatePush, coefficients, shift, keepSlots);
     EXPECT_PUSH(reconstruct_comp, ReconstructPush, collectors, scale, eye, voxelToWorld, sunDirection, axisBase,

@@ -58,6 +58,11 @@ std::uint32_t capacityFor(std::uint64_t photons, std::uint32_t invocations) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, roundRecords / invocations));
 }
 
+std::vector<SpecConstant> withGround(std::vector<SpecConstant> constants, const Options& options) {
+    if (options.ground) constants.push_back(SpecConstant::of(5, true));
+    return constants;
+}
+
 }  // namespace
 
 void PassLog::add(const gpu::Commands& commands) {
@@ -73,17 +78,20 @@ void PassLog::add(const gpu::Commands& commands) {
 }
 
 GenerationTracer::GenerationTracer(gpu::Context& context, const MapPart& part, const Options& options)
-    : GenerationTracer(
-          context,
-          {&part, nullptr, traceSpirv(),
-           traceConstants(part.medium.tables, part.medium.albedo, false, part.asset->isSparse(), options.air),
-           part.collectors, part.estimatorBase + shared::estimatorCounts(part.estimates.cells)},
-          options) {}
+    : GenerationTracer(context,
+                       {&part, nullptr, traceSpirv(),
+                        withGround(traceConstants(part.medium.tables, part.medium.albedo, false, part.asset->isSparse(),
+                                                  options.air),
+                                   options),
+                        part.collectors, part.estimatorBase + shared::estimatorCounts(part.estimates.cells)},
+                       options) {}
 
 GenerationTracer::GenerationTracer(gpu::Context& context, const WorldWalk& walk, std::uint32_t collectors,
                                    std::uint32_t axisBase, const Options& options)
-    : GenerationTracer(context, {nullptr, &walk, walk.spirv(), walk.constants(options.air), collectors, axisBase},
-                       options) {}
+    : GenerationTracer(
+          context,
+          {nullptr, &walk, walk.spirv(), withGround(walk.constants(options.air), options), collectors, axisBase},
+          options) {}
 
 GenerationTracer::GenerationTracer(gpu::Context& context, const Walked& walked, const Options& options)
     : part_(walked.part),
@@ -122,6 +130,13 @@ GenerationTracer::GenerationTracer(gpu::Context& context, const Walked& walked, 
         gpu::upload(context, inverseCdf_, part_->medium.tables.inverseCdf);
 }
 
+glm::dmat3 GenerationTracer::cellsToWorld() const {
+    if (world_ != nullptr) return glm::dmat3(world_->cellEdge());
+    glm::dmat3 edges = part_->voxelToMetres;
+    for (int axis = 0; axis < 3; ++axis) edges[axis] *= static_cast<double>(part_->asset->majorants.cellSize[axis]);
+    return edges;
+}
+
 /// Where the one cloud and its medium are described.
 void GenerationTracer::setCloud(shared::TraceParams& p, double extinction) const {
     const Medium& medium = part_->medium;
@@ -130,9 +145,7 @@ void GenerationTracer::setCloud(shared::TraceParams& p, double extinction) const
     p.size = glm::vec3(part_->asset->size);
     p.cells = part_->asset->majorants.cells;
     p.cellSize = part_->asset->majorants.cellSize;
-    glm::dmat3 cellEdges = part_->voxelToMetres;
-    for (int axis = 0; axis < 3; ++axis) cellEdges[axis] *= static_cast<double>(p.cellSize[axis]);
-    p.worldToCells = glm::mat3(glm::inverse(cellEdges));
+    p.worldToCells = glm::mat3(glm::inverse(cellsToWorld()));
     p.extinction = static_cast<float>(extinction * (1.0 - f * least));
     p.scatterShare = static_cast<float>((1.0 - f) / (1.0 - f * least));
     p.albedo = glm::vec3(medium.albedo);
@@ -240,7 +253,8 @@ void GenerationTracer::round(const gpu::Buffer& coefficients) {
                                      {"Counters", counters_},
                                      {"SkyCells", skyCells_},
                                      {"SunColours", sunColours_},
-                                     {"CollisionEstimates", coefficients}});
+                                     {"CollisionEstimates", coefficients},
+                                     {"GroundLight", ground_ != nullptr ? *ground_ : params_}});
     commands_.begin();
     commands_.pass("trace");
     commands_.fill(collectorCounts_, 0);

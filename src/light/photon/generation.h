@@ -50,6 +50,11 @@ class GenerationTracer {
     void setAir(const AirLight& air);
 
     /// Lowers the photons of the generations from now on. `photons` is at least 1 and at most what it was.
+    /// The ground for the walk; must outlive the tracer. Before the first generation of a map with one.
+    void setGround(const gpu::Buffer& ground) { ground_ = &ground; }
+    /// Edges of the walk's cells in the world, columns [m].
+    glm::dmat3 cellsToWorld() const;
+
     void setPhotons(std::uint64_t photons) { options_.photonsPerGeneration = photons; }
 
   private:
@@ -71,6 +76,7 @@ class GenerationTracer {
     std::uint32_t invocations_;
     std::uint32_t recordCapacity_;
     glm::dmat3 faceArea_;
+    const gpu::Buffer* ground_ = nullptr;
 
     gpu::Program<gpu::NoPush> traceProgram_;
     gpu::Program<shared::GatherPush> scanProgram_, scatterProgram_, gatherProgram_;

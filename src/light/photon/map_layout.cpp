@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "light/photon/ground.h"
 #include "light/photon/map_limits.h"
 #include "shared/collision_estimator.h"
 #include "shared/sun_axis.h"
@@ -36,11 +37,16 @@ std::uint32_t collectorsOf(std::span<const MapPart> parts) {
     return parts.back().firstCollector + parts.back().collectors;
 }
 
+std::uint32_t groundBase(std::span<const MapPart> parts, std::uint32_t axisBase) {
+    return axisBase + (hasAxis(parts) ? collectorsOf(parts) * shared::AXIS_COUNTS : 0U);
+}
+
 std::uint32_t coefficientsOf(const gpu::Context& context, std::span<const MapPart> parts, const Options& options) {
     const std::uint64_t collectors = collectorsOf(parts);
     std::uint64_t estimates = hasAxis(parts) ? collectors * shared::AXIS_COUNTS : 0;
     for (const MapPart& part : parts)
         if (part.estimates.edge > 0) estimates += shared::estimatorCounts(part.estimates.cells);
+    if (options.ground) estimates += groundCounts();
     const MapSize size{collectors, options.bands, options.generations, options.keepRing, options.splitGenerations,
                        estimates};
     requireMapFits(size, options.memoryBudget, context.limits().maxStorageBufferRange);

@@ -14,6 +14,7 @@
 #include "light/photon/collector_light.h"
 #include "light/photon/emission.h"
 #include "light/photon/generation.h"
+#include "light/photon/ground.h"
 #include "light/photon/map_layout.h"
 #include "light/photon/world_walk.h"
 #include "shared/collision_estimator.h"
@@ -69,6 +70,8 @@ struct PhotonMap::State {
     CoefficientSums sums;
     std::optional<WorldWalk> walk;  // where there are several instances
     GenerationTracer tracer;
+    std::optional<GroundWalk> groundWalk;  // where there is a ground
+    std::optional<Ground> ground;
     CollectorLight reconstruction;
 
     Lit newest;         // of the generations that count
@@ -88,6 +91,7 @@ struct PhotonMap::State {
     std::optional<Begun> begun;
 
     Emission emissionOf(const scene::Sun& sun, const sky::Environment& environment, const AirLight* air) const;
+    Emission emissionUnder(const scene::Sun& sun, const sky::Environment& environment) const;
     double meanExtinction(std::size_t part) const;
     void placeCollectors();
     /// `greatest`: the sun's largest irradiance that the ring may have to hold [W/m²].
@@ -106,13 +110,24 @@ PhotonMap::State::State(gpu::Context& gpuContext, std::vector<MapPart> theParts,
       walk(volumes != nullptr ? std::optional<WorldWalk>(std::in_place, context, parts, *volumes) : std::nullopt),
       tracer(walk ? GenerationTracer(context, *walk, collectors, axisBase, options)
                   : GenerationTracer(context, parts.front(), options)),
-      reconstruction(context, parts, options.bands) {}
+      reconstruction(context, parts, options.bands) {
+    if (options.ground) groundWalk.emplace(context, groundBase(parts, axisBase));
+}
 
 /// Of several instances all light counts that is not for certain beside all of them.
 Emission PhotonMap::State::emissionOf(const scene::Sun& sun, const sky::Environment& environment,
                                       const AirLight* air) const {
     if (air != nullptr)
         return walk ? makeEmission(sun, *air, walk->largestWeight()) : makeEmission(sun, *air, tracer.faceArea());
+    if (ground) {  // its photons start like those of the sky, and have their share of the brightest of both
+        scene::Sky brightest;
+        brightest.radiance = ground->brightest();
+        return emissionUnder(sun, sky::Environment(brightest));
+    }
+    return emissionUnder(sun, environment);
+}
+
+Emission PhotonMap::State::emissionUnder(const scene::Sun& sun, const sky::Environment& environment) const {
     if (!walk) return makeEmission(sun, environment, tracer.faceArea());
     return makeEmission(sun, environment, walk->largestWeight());
 }
@@ -241,6 +256,17 @@ bool PhotonMap::tryTrace(const scene::Sun& sun, const sky::Environment& environm
     }
     drop();
     return false;
+}
+
+void PhotonMap::setGround(const Ground& ground) {
+    State& s = *state_;
+    s.ground = ground;
+    s.groundWalk->set(ground, s.tracer.cellsToWorld());
+    s.tracer.setGround(s.groundWalk->buffer());
+}
+
+std::vector<glm::vec3> PhotonMap::groundLight() {
+    return state_->groundWalk->download(light());
 }
 
 void PhotonMap::keep() {

@@ -34,6 +34,7 @@ struct Options {
     /// Whether generations of even and of odd number stay apart until the sum takes them: pictures of both tell how
     /// noisy a picture of all is. Not with a ring.
     bool splitGenerations = false;
+    bool ground = false;  ///< whether there is a ground below the clouds, see setGround()
     std::uint64_t memoryBudget = std::uint64_t{1} << 30U;  ///< bytes for all coefficients
     bool air = false;                                      ///< whether the light is that of an atmosphere
     /// Asked between the rounds of a generation, and may throw. Then a map with a ring has the light of before; one
@@ -59,6 +60,8 @@ struct Light {
     const gpu::Buffer* counts = nullptr;
     double unit = 0.0;
 };
+
+struct Ground;
 
 /// The photon map: a ring of generations, each [collector][RGB][bands²] int64 of spherical-harmonic coefficients, then
 /// the estimates (shared/collision_estimator.h) and, where the phase function has a backward peak, the rings about the
@@ -93,6 +96,11 @@ class PhotonMap {
     /// Where the instances are from now on, one for each part. A map of several needs it
     /// before all else.
     void place(std::span<const Placement> places);
+    /// The ground for the next generations; before the first one of a map with `Options::ground`, after place().
+    void setGround(const Ground& ground);
+    /// Light of the clouds that falls on the cells of the ground, the mean over the ring [W]: RGB, x fastest. For a map
+    /// with `Options::ground`.
+    std::vector<glm::vec3> groundLight();
     /// Takes the generation of tryTrace() into the oldest slot.
     void keep();
     /// Takes the generation of tryTrace() out again; does nothing where there is none.

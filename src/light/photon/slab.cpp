@@ -142,7 +142,8 @@ class Layer {
                             {"Counters", counters_},
                             {"SkyCells", inverseCdf_},
                             {"SunColours", inverseCdf_},
-                            {"CollisionEstimates", counters_}},
+                            {"CollisionEstimates", counters_},
+                            {"GroundLight", params_}},
                            {}, gpu::linearGroups(lanes, 64));
         commands_.submit();
         commands_.wait();

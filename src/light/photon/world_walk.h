@@ -41,6 +41,8 @@ class WorldWalk {
     double area() const { return area_; }
     /// Where lengths of the walk begin [m]; it moves with the first cloud.
     const glm::dvec3& corner() const { return grid_.origin; }
+    /// Edge of its cells [m].
+    double cellEdge() const { return grid_.edge; }
     std::uint64_t gridBytes() const { return grid_.bytes(); }
 
   private:

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "render/renderer.h"
+
+namespace lumulus {
+
+/// Light from all around a point as real spherical harmonics of three bands: L(ω) ≈ Σ c_i y_i(ω).
+struct AmbientLight {
+    std::array<glm::dvec3, 9> coefficients{};  ///< c_i, per channel [W m⁻² sr^−½]
+
+    /// Irradiance of a plane with this normal [W/m²]: Σ A_l c_i y_i(n), A = π, 2π/3, π/4 (Ramamoorthi and Hanrahan
+    /// 2001).
+    glm::dvec3 irradiance(const glm::dvec3& normal) const;
+};
+
+/// The nine basis functions at a unit vector of the world, in the order of Ramamoorthi and Hanrahan (2001):
+/// 1; y, z, x; xy, yz, 3z² − 1, xz, x² − y².
+std::array<double, 9> ambientBasis(const glm::dvec3& direction);
+
+/// Projects radiance that is given for the middles of the pixels of a panorama (rows from the zenith, the middle column
+/// north) on the basis.
+AmbientLight projectPanorama(std::span<const float> red, std::span<const float> green, std::span<const float> blue,
+                             int width, int height);
+
+/// Light from clouds, sky and ground at a point, without what comes straight from the sun: `renderer` is of a scene
+/// whose sun has an angular diameter of 0, and has traced its photons. Errors: those of Renderer::draw.
+AmbientLight ambientAt(Renderer& renderer, ViewState& state, const glm::dvec3& point);
+
+}  // namespace lumulus
