@@ -12,6 +12,7 @@
 #include "shared/fog.h"
 #include "shared/fog_layers.h"
 #include "shared/frame.h"
+#include "shared/ground.h"
 #include "shared/photon.h"
 #include "shared/sky_view.h"
 #include "shared/world.h"
@@ -138,7 +139,7 @@ TEST(SharedLayout, Draw) {
     EXPECT_LAYOUT(billboards_comp, InstanceParams, worldToVoxel, eyeVoxel, size, cells, cellSize, extinction,
                   voxelLength, radianceScale, voxelToShadow, shadowOffset, sunIrradiance, albedo, extinctionScale,
                   scatterShare, angleScale, tauMaximum, phaseTable, densityOrigin, lightOrigin, shadowOrigin,
-                  cellOrigin, lightSize, shadowSize, air, airTexel);
+                  cellOrigin, lightSize, shadowSize, firstBrick, air, airTexel);
     EXPECT_LAYOUT(billboards_comp, SamplingGrid, first, size, spacing, tolerance, depthTolerance);
     EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, environment, atlas, sampling, instances, tilesAcross,
                   samples, eyeAboveGround);
