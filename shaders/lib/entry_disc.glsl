@@ -24,17 +24,17 @@ vec3 applyRows(Rows rows, vec4 to) { return vec3(dot(rows.x, to), dot(rows.y, to
 int chooseDisc(uint discs, float u) {
     const float place = u * float(discs);
     const int disc = min(int(place), int(discs) - 1);
-    const vec4 entry = imageLoad(entryDiscs, ENTRY_TEXELS * disc + 6);
+    const vec4 entry = imageLoad(entryDiscs, ENTRY_TEXELS * disc + 7);
     return place - float(disc) < entry.z ? disc : int(entry.w);
 }
 
 /// A point on a disc across the direction, uniform: metres from the corner of the grid.
 vec3 pointOnDisc(int disc, vec3 direction, vec2 u) {
-    const vec3 along = normalize(applyRows(entryRows(disc, 0), vec4(direction, 0.0)));
+    const vec3 along = normalize(applyRows(entryRows(disc, 1), vec4(direction, 0.0)));
     const vec3 aside = normalize(abs(along.y) < 0.9 ? vec3(along.z, 0.0, -along.x) : vec3(0.0, -along.z, along.y));
     const float radius = sqrt(u.x), angle = 6.28318531 * u.y;
     const vec3 point = radius * (cos(angle) * aside + sin(angle) * cross(along, aside));
-    return applyRows(entryRows(disc, 3), vec4(point, 1.0));
+    return applyRows(entryRows(disc, 4), vec4(point, 1.0));
 }
 
 /// Where light of this direction enters the union of the discs [m from the corner of the grid], and the area that a photon
@@ -43,13 +43,16 @@ vec3 entryPoint(uint discs, vec3 direction, vec3 u, out float area) {
     const vec3 point = pointOnDisc(chooseDisc(discs, u.x), direction, u.yz);
     float density = 0.0, nearest = 3.4e38;
     for (int disc = 0; disc < int(discs); ++disc) {
-        const Rows rows = entryRows(disc, 0);
+        const vec4 sphere = imageLoad(entryDiscs, ENTRY_TEXELS * disc);
+        const vec3 away = sphere.xyz - point, beside = away - dot(away, direction) * direction;
+        if (dot(beside, beside) > sphere.w * sphere.w) continue;
+        const Rows rows = entryRows(disc, 1);
         const vec3 place = applyRows(rows, vec4(point, 1.0)), along = applyRows(rows, vec4(direction, 0.0));
         const float squared = dot(along, along), middle = -dot(place, along) / squared;
         const vec3 closest = place + middle * along;
         const float inside = 1.0 - dot(closest, closest);
         if (inside < -1.0e-5) continue;
-        const vec4 entry = imageLoad(entryDiscs, ENTRY_TEXELS * disc + 6);
+        const vec4 entry = imageLoad(entryDiscs, ENTRY_TEXELS * disc + 7);
         density += entry.y * inversesqrt(squared) / entry.x;
         nearest = min(nearest, middle - sqrt(max(inside, 0.0) / squared));
     }

@@ -47,9 +47,10 @@ struct WalkedInstance {
 };
 const int WALKED_TEXELS = 11;
 
-/// An ellipsoid that holds a cloud, round which photons begin: seven texels. Lengths are metres from the corner of the
+/// An ellipsoid that holds a cloud, round which photons begin: eight texels. Lengths are metres from the corner of the
 /// grid.
 struct EntryDisc {
+    vec4 sphere;       // round it: middle and radius
     vec4 toUnit[3];    // rows: from a place to the unit sphere; w: of the grid's corner
     vec4 fromUnit[3];  // rows; w: the middle
     float volume;  // π times the determinant of `fromUnit` [m³]: over the length of a direction in it, the area seen
@@ -57,12 +58,12 @@ struct EntryDisc {
     float keep;    // of the alias table: probability that its entry stands for itself
     float other;   // and whom it stands for else
 };
-const int ENTRY_TEXELS = 7;
+const int ENTRY_TEXELS = 8;
 
 #ifdef __cplusplus
 static_assert(sizeof(MergedGridParams) == 24 && offsetof(MergedGridParams, largestWeight) == 20);
 static_assert(sizeof(WalkedInstance) == 16 * WALKED_TEXELS && offsetof(WalkedInstance, unused) == 168);
-static_assert(sizeof(EntryDisc) == 16 * ENTRY_TEXELS && offsetof(EntryDisc, other) == 108);
+static_assert(sizeof(EntryDisc) == 16 * ENTRY_TEXELS && offsetof(EntryDisc, other) == 124);
 #endif
 
 SHARED_END

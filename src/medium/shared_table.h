@@ -15,6 +15,7 @@ class SharedTable {
     operator const std::vector<float>&() const { return *values_; }
     bool empty() const { return values_->empty(); }
     std::size_t size() const { return values_->size(); }
+    const float* data() const { return values_->data(); }
     float operator[](std::size_t i) const { return (*values_)[i]; }
     auto begin() const { return values_->begin(); }
     auto end() const { return values_->end(); }

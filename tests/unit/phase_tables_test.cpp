@@ -213,7 +213,8 @@ TEST(SingleScattering, SharpestLobesStayFinite) {
     for (const double g : {-0.9999, 0.9999}) {
         const ScatteringTables tables =
             phase::makeScatteringTables(test::hgCase(g).phase, cut, glm::dvec3(1.0), 6, sunDiameter);
-        for (const phase::SharedTable* table : {&tables.singleScatterH, &tables.singleScatterK, &tables.phaseTable}) {
+        for (const std::vector<float>* table :
+             {&tables.singleScatterH.values(), &tables.singleScatterK.values(), &tables.phaseTable.values()}) {
             EXPECT_TRUE(std::all_of(table->begin(), table->end(), [](float x) { return std::isfinite(x); })) << g;
         }
         EXPECT_GT(tables.scatterFraction, 0.0F);

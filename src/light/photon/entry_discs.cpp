@@ -21,6 +21,15 @@ glm::vec4 row(const glm::dmat3& matrix, const glm::dvec3& fourth, int number) {
     return glm::vec4(glm::dvec4(matrix[0][number], matrix[1][number], matrix[2][number], fourth[number]));
 }
 
+/// A bound: axes of a sheared volume need not be those of its ellipsoid.
+double longestAxis(const glm::dmat3& axes) {
+    const double squares = glm::dot(axes[0], axes[0]) + glm::dot(axes[1], axes[1]) + glm::dot(axes[2], axes[2]);
+    const double longest = std::max({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
+    const double skew = std::abs(glm::dot(axes[0], axes[1])) + std::abs(glm::dot(axes[1], axes[2])) +
+                        std::abs(glm::dot(axes[2], axes[0]));
+    return skew < 1e-9 * squares ? longest : std::sqrt(squares);
+}
+
 }  // namespace
 
 Ellipsoid ellipsoidOf(const cloud::Asset& asset) {
@@ -94,6 +103,7 @@ std::vector<shared::EntryDisc> entryDiscs(std::span<const PlacedEllipsoid> ellip
             discs[i].toUnit[axis] = row(toUnit, -(toUnit * middle), axis);
             discs[i].fromUnit[axis] = row(axes, middle, axis);
         }
+        discs[i].sphere = glm::vec4(glm::vec3(middle), static_cast<float>(slack * longestAxis(axes)));
         discs[i].volume = static_cast<float>(std::numbers::pi * std::abs(glm::determinant(axes)));
         discs[i].share = static_cast<float>(shares[i]);
         discs[i].keep = static_cast<float>(alias.keep[i]);
