@@ -108,8 +108,10 @@ struct Reader {
         if (const auto* given = node.as_date_time()) {
             const toml::date_time t = given->get();
             const bool universal = t.offset && t.offset->minutes == 0;
-            text = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:09}{}", t.date.year, t.date.month, t.date.day,
-                               t.time.hour, t.time.minute, t.time.second, t.time.nanosecond, universal ? "Z" : "");
+            text = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", t.date.year, t.date.month, t.date.day,
+                               t.time.hour, t.time.minute, t.time.second);
+            if (t.time.nanosecond != 0) text += fmt::format(".{:09}", t.time.nanosecond);
+            if (universal) text += "Z";
         } else {
             const auto* string = node.as_string();
             if (string == nullptr) wrongType(node);
