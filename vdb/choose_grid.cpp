@@ -56,8 +56,10 @@ class Chooser {
         const auto rank = [&](std::size_t i) { return nameRank(grids_[i].name); };
         std::ranges::stable_sort(usable, {}, rank);
         std::size_t chosen = usable.front();
-        const auto filled = std::ranges::find_if(
-            usable, [&](std::size_t i) { return rank(i) < otherQuantity && grids_[i].hasContent(); });
+        const auto filled = std::ranges::find_if(usable, [&](std::size_t i) {
+            // where there is no choice nothing has to be read
+            return rank(i) < otherQuantity && (usable.size() < 2 || grids_[i].hasContent());
+        });
         if (filled != usable.end() && *filled != chosen) {
             warn(fmt::format("grid {} is empty: grid {} is taken; {} chooses another", quoted(grids_[chosen].name),
                              quoted(grids_[*filled].name), key_));

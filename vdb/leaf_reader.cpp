@@ -36,7 +36,7 @@ LeafReader::Stream LeafReader::open() const {
 void LeafReader::read(std::uint64_t place, LeafTable::Values values) {
     try {
         Stream& stream = streams_.local();
-        constexpr bool transfer = false;
+        constexpr bool transfer = true;  // versions and compression too
         openvdb::io::setStreamMetadataPtr(stream.in, stream.storage, transfer);
         openvdb::io::setGridBackgroundValuePtr(stream.in, &background_);
         stream.in.seekg(static_cast<std::streamoff>(place));

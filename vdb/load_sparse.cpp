@@ -49,6 +49,17 @@ void forTiles(const openvdb::FloatTree& tree, const Visit& visit) {
     }
 }
 
+/// The choice of load(), but that a grid counts as filled by its structure: no values are read.
+GridChoice choose(const std::filesystem::path& path, const LoadOptions& options) {
+    GridFile probe(path, options.limits);
+    std::vector<GridLabel> labels = probe.labels();
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (!probe.hasStream(i)) continue;
+        labels[i].hasContent = [&probe, i] { return probe.readStructure(i)->activeVoxelCount() > 0; };
+    }
+    return chooseGrid(labels, options.grid, path.string(), options.keys + ".grid");
+}
+
 /// Makes the table of one grid's leaves.
 class Tabler {
   public:
@@ -187,8 +198,8 @@ class Tabler {
 }  // namespace
 
 GridOutline outline(const std::filesystem::path& path, const LoadOptions& options) {
+    const GridChoice choice = choose(path, options);
     GridFile file(path, options.limits);
-    const GridChoice choice = chooseGrid(file.labels(), options.grid, path.string(), options.keys + ".grid");
     const openvdb::FloatGrid::Ptr grid =
         file.hasStream(choice.index) ? file.readStructure(choice.index) : asFloats(file.read(choice.index));
     GridOutline outline;
@@ -209,8 +220,8 @@ GridOutline outline(const std::filesystem::path& path, const LoadOptions& option
 }
 
 SparseResult loadSparse(const std::filesystem::path& path, const LoadOptions& options) {
+    GridChoice choice = choose(path, options);
     GridFile file(path, options.limits);
-    GridChoice choice = chooseGrid(file.labels(), options.grid, path.string(), options.keys + ".grid");
     SparseResult result = Tabler(file, choice.index, options, path.string()).make();
     result.warnings.insert(result.warnings.begin(), std::make_move_iterator(choice.warnings.begin()),
                            std::make_move_iterator(choice.warnings.end()));

@@ -99,7 +99,8 @@ TEST_F(SparseLoad, StreamsOfSeveralGridsAndDoubles) {
     expectDenseValues(save({other, lumps()}));
     const openvdb::DoubleGrid::Ptr doubles = openvdb::DoubleGrid::create();
     doubles->setName("density");
-    for (auto value = lumps()->cbeginValueOn(); value; ++value)
+    const openvdb::FloatGrid::Ptr floats = lumps();
+    for (auto value = floats->cbeginValueOn(); value; ++value)
         if (value.isVoxelValue()) doubles->tree().setValue(value.getCoord(), static_cast<double>(*value));
     expectDenseValues(save({doubles}));
 }
@@ -144,8 +145,8 @@ TEST_F(SparseLoad, AFileThatChangesAfterwardsIsNamed) {
 
 TEST_F(SparseLoad, TwoCloudsFarApartTakeTheBricksOfTwo) {
     const openvdb::FloatGrid::Ptr one = makeBlob(Coord(0, 0, 0), 12), two = makeBlob(Coord(0, 0, 0), 12);
-    for (auto value = makeBlob(Coord(20003, 5, 9), 12)->cbeginValueOn(); value; ++value)
-        two->tree().setValue(value.getCoord(), *value);
+    const openvdb::FloatGrid::Ptr away = makeBlob(Coord(20003, 5, 9), 12);
+    for (auto value = away->cbeginValueOn(); value; ++value) two->tree().setValue(value.getCoord(), *value);
     const auto laidOut = [&](const openvdb::FloatGrid::Ptr& grid) {
         vdb::SparseVolume volume = vdb::loadSparse(save({grid}), {}).volume;
         vdb::layOut(volume, {}, stopIfInterrupted);
@@ -154,7 +155,8 @@ TEST_F(SparseLoad, TwoCloudsFarApartTakeTheBricksOfTwo) {
     const vdb::SparseVolume alone = laidOut(one), both = laidOut(two);
     EXPECT_GE(both.size.x, 20000);
     EXPECT_LE(both.slots.size(), 2.6 * static_cast<double>(alone.slots.size()));
-    EXPECT_LE(both.gpuBytes(), 3 * alone.gpuBytes() + 100000);
+    // an empty box 20000 voxels long adds roots and cells of majorants
+    EXPECT_LE(both.gpuBytes(), 2.0 * static_cast<double>(alone.gpuBytes()) + 1.0e6);
 }
 
 }  // namespace
