@@ -14,7 +14,7 @@ using glm::asin;
 
 SHARED_BEGIN
 
-/// Columns from the sun's azimuth to that opposite to it; rows from the horizon to the zenith, denser at the horizon;
+/// Columns from the sun's azimuth to that opposite to it, denser at the sun; rows from the horizon to the zenith, denser at the horizon;
 /// then rows of the ground, from the point below the eye to the horizon.
 const int SKY_COLUMNS = 64;
 const int SKY_ROWS = 96;
@@ -47,7 +47,7 @@ SHARED_FN vec2 skyViewPlace(SkyViewParams sky, vec3 direction, float above) {
     const vec3 level = direction - up * sky.up;
     const float across = sqrt(max(dot(level, level), 1.0e-20F));
     const float azimuth = acos(clamp(dot(level, sky.sunAcross) / across, -1.0F, 1.0F));
-    const float x = azimuth * 0.318309886F * float(SKY_COLUMNS - 1) + 0.5F;
+    const float x = sqrt(azimuth * 0.318309886F) * float(SKY_COLUMNS - 1) + 0.5F;
     float y = sqrt(clamp(above / sky.highest, 0.0F, 1.0F)) * float(SKY_ROWS - 1) + 0.5F;
     if (above < 0.0F) {
         const float b = sky.planetHeight * up, c = sky.horizonDistance * sky.horizonDistance;

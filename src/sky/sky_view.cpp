@@ -72,7 +72,7 @@ SkyView makeSkyView(const Atmosphere& atmosphere, const glm::dvec3& eye, const s
         const double cosine = cosineOfRow(p, height, horizonDistance, row), sine = std::sqrt(1.0 - cosine * cosine);
         const AirPath path = atmosphere.path(height, cosine, steps);
         for (int column = 0; column < columns; ++column) {
-            const double toSun = cosine * sunUp + sine * sunSine * std::cos(pi * column / (columns - 1.0));
+            const double toSun = cosine * sunUp + sine * sunSine * std::cos(pi * std::pow(column / (columns - 1.0), 2));
             const AirLight light = atmosphere.sky({height, cosine, sunUp, std::clamp(toSun, -1.0, 1.0)}, path);
             const auto at = static_cast<std::size_t>(row * columns + column);
             view.scattered[at] = texel(atmosphere.air().rgb(light.scattered) * scale);
