@@ -47,21 +47,5 @@ TEST(Droplets, AThinCloudShowsTheirColours) {
     }
 }
 
-TEST(Droplets, OtherCloudsBesideThemKeepTheirLight) {
-    scene::Scene scene = thinBall(142.0);
-    scene.photonMap.forwardCut = 12.0;
-    scene::Cloud grey = scene.clouds[0];
-    grey.phase = scene::Phase{};
-    grey.phase.g = 0.5;
-    grey.transform[3] = glm::dvec4(0.0, 0.0, -3000.0, 1.0);
-    scene.clouds = {grey};
-    const dvec3 alone = middleOf(test::render(scene).image);
-    scene::Cloud droplets = thinBall(142.0).clouds[0];
-    droplets.transform[3] = glm::dvec4(2000.0, 0.0, 0.0, 1.0);
-    scene.clouds.push_back(droplets);
-    const dvec3 beside = middleOf(test::render(scene).image);
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(beside[c] / alone[c], 1.0, 0.02);
-}
-
 }  // namespace
 }  // namespace lumulus
