@@ -95,7 +95,7 @@ TEST_P(Clouds, ExtinctionsAddUp) {
 /// is not seen.
 TEST_P(Clouds, EachIsLitAsByItself) {
     scene.sky.radiance = dvec3(0.0);
-    scene.photonMap.photons = 40000;
+    scene.photonMap.photons = 400000;
     const scene::Cloud left = ballAt({-260, 0, 0}), right = ballAt({260, 0, 0});
     const Frame one = with({left}), other = with({right}), both = with({left, right});
     const double alone = meanOf(one.image, "cloud.G") + meanOf(other.image, "cloud.G");
