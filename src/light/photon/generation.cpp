@@ -59,7 +59,7 @@ std::uint32_t capacityFor(std::uint64_t photons, std::uint32_t invocations) {
 }
 
 std::vector<SpecConstant> withGround(std::vector<SpecConstant> constants, const Options& options) {
-    if (options.ground) constants.push_back(SpecConstant::of(5, true));
+    if (options.ground) constants.push_back(SpecConstant::of(6, true));
     return constants;
 }
 
