@@ -5,8 +5,8 @@
 
 namespace lumulus::vdb {
 
-/// An order of bricks: region by region of 16³, and within one by Morton's curve, so that all bricks of a cube of 2, 4 or
-/// 8 along each axis follow each other (inside vdb/ only).
+/// An order of bricks: region by region of 16³, and within one by Morton's curve, so that all bricks of a cube of 2, 4
+/// or 8 along each axis follow each other (inside vdb/ only).
 class BrickOrder {
   public:
     static constexpr int regionEdge = 16;
@@ -25,8 +25,7 @@ class BrickOrder {
         const std::uint64_t number = key >> 12U;
         const glm::u64vec3 region(number % extent.x, number / extent.x % extent.y, number / (extent.x * extent.y));
         const auto code = static_cast<std::uint32_t>(key & 0xFFFU);
-        return regionEdge * glm::ivec3(region) +
-               glm::ivec3(gathered(code), gathered(code >> 1U), gathered(code >> 2U));
+        return regionEdge * glm::ivec3(region) + glm::ivec3(gathered(code), gathered(code >> 1U), gathered(code >> 2U));
     }
 
   private:

@@ -125,8 +125,8 @@ Largest largestOf(const SparseVolume::Slot& slot, const glm::ivec3& brick, std::
         for (int y = low.y; y <= high.y; ++y)
             for (int x = low.x; x <= high.x; ++x) {
                 const float value = stored[static_cast<std::size_t>((z * slotEdge + y) * slotEdge + x)];
-                const unsigned last = (x >= high.x - 1 ? 1U : 0U) | (y >= high.y - 1 ? 2U : 0U) |
-                                      (z >= high.z - 1 ? 4U : 0U);
+                const unsigned last =
+                    (x >= high.x - 1 ? 1U : 0U) | (y >= high.y - 1 ? 2U : 0U) | (z >= high.z - 1 ? 4U : 0U);
                 for (unsigned mask = 0; mask < 8; ++mask)
                     if ((mask & ~last) == 0) largest[mask] = std::max(largest[mask], value);
             }
@@ -232,11 +232,11 @@ class Filler {
             const glm::ivec3 at = brick + glm::ivec3(mask & 1, mask >> 1 & 1, mask >> 2);
             if (glm::any(glm::greaterThanEqual(at, bricks))) continue;
             const glm::ivec3 cell = at / volume_.cellBricks;
-            float& majorant = volume_.cellMajorants[static_cast<std::size_t>(cell.x) +
-                                                    static_cast<std::size_t>(cells.x) *
-                                                        (static_cast<std::size_t>(cell.y) +
-                                                         static_cast<std::size_t>(cells.y) *
-                                                             static_cast<std::size_t>(cell.z))];
+            float& majorant =
+                volume_.cellMajorants[static_cast<std::size_t>(cell.x) +
+                                      static_cast<std::size_t>(cells.x) *
+                                          (static_cast<std::size_t>(cell.y) +
+                                           static_cast<std::size_t>(cells.y) * static_cast<std::size_t>(cell.z))];
             majorant = std::max(majorant, largest[static_cast<std::size_t>(mask)]);
         }
     }

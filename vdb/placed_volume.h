@@ -15,7 +15,7 @@ struct PlacedVolume {
 
     const Volume* volume;                  ///< never null
     const SparseVolume* bricks = nullptr;  ///< the field, where it is in bricks: `volume` has no values then
-    Affine toWorld;        ///< voxel coordinates → metres
+    Affine toWorld;                        ///< voxel coordinates → metres
 };
 
 }  // namespace lumulus::vdb

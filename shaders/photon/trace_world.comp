@@ -27,7 +27,6 @@ layout(binding = 3, scalar) readonly buffer Grid { MergedGridParams storedGrid; 
 layout(binding = 4, scalar) readonly buffer InverseCdf { float inverseCdf[]; };
 layout(binding = 5, scalar) buffer States { TraceState states[]; };
 layout(binding = 7, scalar) buffer RecordCounts { uint recordCounts[]; };  // of each invocation
-layout(binding = 21, rgba32f) uniform readonly imageBuffer walkedInstances;
 
 /// Cells that a photon may cross before the lanes that have met something go on.
 const int CROSSINGS = 16;
@@ -41,23 +40,7 @@ MergedGridParams grid;
 /// Metres from the corner of the grid.
 vec3 metresOf(Walk walk) { return (vec3(walk.cell) + walk.offset) * grid.edge; }
 
-vec4 texelOf(uint instance, int texel) { return imageLoad(walkedInstances, int(instance) * WALKED_TEXELS + texel); }
-
-/// Where a walk is in the voxel coordinates of an instance.
-vec3 voxelIn(uint instance, Walk walk) {
-    const vec3 base = texelOf(instance, 5).xyz;
-    const vec4 place = vec4(vec3(walk.cell - ivec3(base)) + walk.offset, 1.0);
-    return vec3(dot(texelOf(instance, 0), place), dot(texelOf(instance, 1), place), dot(texelOf(instance, 2), place));
-}
-
-/// Collision coefficient of an instance at a voxel [1/m], a random number of that mean (lib/density.glsl).
-float extinctionNear(uint instance, vec3 voxel, vec2 u) {
-    const vec4 size = texelOf(instance, 3);
-    if (any(lessThan(voxel, vec3(0.0))) || any(greaterThan(voxel, size.xyz))) return 0.0;
-    const vec3 first = texelOf(instance, 4).xyz;
-    if (SPARSE) return size.w * brickDensityNear(density, voxel, nearStep(u), ivec3(size.xyz), uint(first.x));
-    return size.w * densityOf(density, voxelNear(voxel, u), ivec3(size.xyz), ivec3(first));
-}
+#include "lib/walked_instance.glsl"
 
 /// Which instance of the cell's list a tentative collision is with, by their shares of the majorant; −1: with none. The rest
 /// of `u` after the extinctions before an instance is what its own is compared with, so that they add up.

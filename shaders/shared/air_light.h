@@ -15,10 +15,10 @@ const int SUN_COLOUR_ROWS = 32;
 
 /// A cell of an alias table, and what a photon from it weighs for each m² that it sees of the cloud's box.
 struct SkyCell {
-    float keep;   // probability that the cell itself is meant, and not `other`
+    float keep;  // probability that the cell itself is meant, and not `other`
     uint other;
-    vec3 low;     // where it enters at the bottom of the cloud [1/m²]
-    vec3 high;    // and at its top
+    vec3 low;   // where it enters at the bottom of the cloud [1/m²]
+    vec3 high;  // and at its top
 };
 
 /// Where a voxel lies between the ends of a cloud: along the sun's azimuth, and by height; 0 to 1.

@@ -14,8 +14,8 @@ using glm::asin;
 
 SHARED_BEGIN
 
-/// Columns from the sun's azimuth to that opposite to it, denser at the sun; rows from the horizon to the zenith, denser at the horizon;
-/// then rows of the ground, from the point below the eye to the horizon.
+/// Columns from the sun's azimuth to that opposite to it, denser at the sun; rows from the horizon to the zenith,
+/// denser at the horizon; then rows of the ground, from the point below the eye to the horizon.
 const int SKY_COLUMNS = 64;
 const int SKY_ROWS = 96;
 const int GROUND_ROWS = 32;

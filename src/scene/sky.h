@@ -40,7 +40,7 @@ struct Sky {
     glm::dvec3 groundAlbedo{0.2};           ///< atmosphere: of the planet, where the scene has no `ground`
     std::filesystem::path map;              ///< map: latitude-longitude EXR
     double mapScale = 1.0;                  ///< map: factor for its radiance
-    double mapRotation = 0.0;               ///< map: degrees by which it turns clockwise seen from above
+    double mapRotation = 0.0;               ///< map: degrees by which it is rotated, clockwise seen from above
     bool mapSun = true;                     ///< map: whether its sun is taken out and becomes the scene's
 
     bool operator==(const Sky&) const = default;

@@ -224,8 +224,7 @@ TEST(PathTracer, SunDiscCarriesTheIrradiance) {
     scene.sun.angularDiameter = 2.0;
     const PathTracer tracer(scene, {}, Majorant::global);
     const double sine = std::sin(glm::radians(1.0));
-    const dvec3 seen =
-        tracer.environment().discRadiance(scene.sun.directionTo) * glm::pi<double>() * sine * sine;
+    const dvec3 seen = tracer.environment().discRadiance(scene.sun.directionTo) * glm::pi<double>() * sine * sine;
     EXPECT_NEAR(glm::distance(seen, scene.sun.irradiance), 0.0, 1e-12);
     Random random(8, 0, 0);
     const auto tilted = [&](double degrees) {

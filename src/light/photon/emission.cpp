@@ -1,6 +1,7 @@
 #include "light/photon/emission.h"
 
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 #include <numbers>
 
 #include "light/photon/air_light.h"
@@ -65,6 +66,15 @@ Emission makeEmission(const scene::Sun& sun, const AirLight& air, double area) {
     const double both = luminance(emission.sunFlux) + luminance(emission.skyFlux);
     emission.sunShare = both > 0.0 ? luminance(emission.sunFlux) / both : 0.0;
     return emission;
+}
+
+double greatestFlux(const glm::dvec3& irradiance, const Emission& emission, const glm::dmat3& faceArea) {
+    const double area = glm::length(faceArea[0]) + glm::length(faceArea[1]) + glm::length(faceArea[2]);
+    return glm::compMax(irradiance * area + emission.skyFlux);
+}
+
+double greatestFlux(const glm::dvec3& irradiance, const Emission& emission, double area, double each) {
+    return glm::compMax(irradiance * area + emission.skyFlux * (area / each));
 }
 
 glm::dmat3 faceAreas(const glm::dmat3& voxelEdges, const glm::dvec3& size) {

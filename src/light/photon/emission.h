@@ -39,6 +39,15 @@ Emission makeEmission(const scene::Sun& sun, const sky::Environment& environment
 /// The same under an atmosphere, whose light is for that area (forArea()).
 Emission makeEmission(const scene::Sun& sun, const AirLight& air, double area);
 
+/// Greatest flux [W] of a channel through the cloud's box, wherever the sun stands: so the ring's unit does not depend
+/// on it, and pictures under a sun that came there have the bits of those where it always was. `irradiance`: of the
+/// sun.
+double greatestFlux(const glm::dvec3& irradiance, const Emission& emission, const glm::dmat3& faceArea);
+
+/// The same through several clouds that show this area [m²], where the emission is that of photons which stand for up
+/// to `each` [m²].
+double greatestFlux(const glm::dvec3& irradiance, const Emission& emission, double area, double each);
+
 /// Area vectors [m²] of the faces across x, y and z of a box of `size` voxels with the given edges (columns) [m]. They
 /// point the way of the edges, in a mirrored volume too.
 glm::dmat3 faceAreas(const glm::dmat3& voxelEdges, const glm::dvec3& size);

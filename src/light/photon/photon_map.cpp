@@ -37,18 +37,6 @@ int exponentAbove(double value) {
     return static_cast<int>(std::ceil(std::log2(value)));
 }
 
-/// Through the cloud's box, wherever the sun stands: so the ring's unit does not depend on it, and pictures under a sun
-/// that came there have the bits of those where it always was.
-double greatestFlux(const glm::dvec3& irradiance, const Emission& emission, const glm::dmat3& faceArea) {
-    const double area = glm::length(faceArea[0]) + glm::length(faceArea[1]) + glm::length(faceArea[2]);
-    return glm::compMax(irradiance * area + emission.skyFlux);
-}
-
-/// Of several clouds that show this area [m²], where the emission is that of photons which stand for up to `each`.
-double greatestFlux(const glm::dvec3& irradiance, const Emission& emission, double area, double each) {
-    return glm::compMax(irradiance * area + emission.skyFlux * (area / each));
-}
-
 /// What lit a generation.
 struct Lit {
     double flux = 0.0;             // luminance [W]
