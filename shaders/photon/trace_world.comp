@@ -6,7 +6,6 @@
 #include "shared/photon.h"
 #include "shared/phase.h"
 #include "shared/phase_table.h"
-#include "lib/density.glsl"
 #include "lib/entry_disc.glsl"
 #include "lib/environment_sample.glsl"
 #include "lib/merged_walk.glsl"
@@ -34,7 +33,6 @@ const int CROSSINGS = 16;
 // Held in registers: a load from a buffer costs a loop over the lanes on lavapipe, in every step.
 TraceParams params;
 MergedGridParams grid;
-#include "lib/photon.glsl"
 #include "lib/ground.glsl"
 
 /// Metres from the corner of the grid.

@@ -64,10 +64,16 @@ std::vector<std::string> workingPaths(Sources from, std::size_t wrong) {
                                        from.overrides.begin() + static_cast<std::ptrdiff_t>(wrong) + 1);
     const std::string given = overrides.back();
     const std::size_t equals = given.find('=');
+    Settings before;
+    before.addFile(from.toml, from.name);
+    for (std::size_t i = 0; i < wrong; ++i) before.addOverride(overrides[i]);
     std::vector<std::string> working;
     std::size_t nearest = 0;
     for (const LikelyPath& likely : pathsLike(given.substr(0, equals))) {
         if (!working.empty() && likely.distance > nearest) break;
+        const ArraySection* array = arrayOf(likely.path);
+        if (array != nullptr && before.entries(array->name) == 0)
+            continue;  // nobody asks for a field by a typing error
         overrides.back() = likely.path + given.substr(equals);
         from.overrides = overrides;
         std::optional<std::size_t> current;

@@ -88,7 +88,7 @@ class Query(CliTest):
 
     def test_ambient(self):
         scene = '[sun]\nazimuth = 90.0\nelevation = 30.0\nirradiance = 2.0\n[sky]\nradiance = [1.0, 2.0, 3.0]\n'
-        open_sky = self.scene(scene)
+        open_sky = self.scene('cloud = []\n' + scene)
         table = self.table("x,y,z\n0,10,0\n0,100,0\n")
         rows = self.rows(self.ask("--ambient", table))
         for row in rows:

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "gpu/groups.h"
 #include "gpu/transfer.h"
 #include "light/photon/coefficient_sums.h"
 #include "light/photon/collector_light.h"
@@ -19,7 +18,6 @@
 #include "light/photon/world_walk.h"
 #include "shared/collision_estimator.h"
 #include "shared/photon.h"
-#include "shared/sun_axis.h"
 
 namespace lumulus::photon {
 
