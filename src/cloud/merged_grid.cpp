@@ -15,7 +15,8 @@ namespace lumulus::cloud {
 
 namespace {
 
-/// Voxels of the finest cloud along a cell: about 48 m for voxels of 8 m, at which walks through fields took least time.
+/// Voxels of the finest cloud along a cell: about 48 m for voxels of 8 m, at which walks through fields took least
+/// time.
 constexpr double voxelsInCell = 6.0;
 /// 64 MiB of cells, and 32 MiB of bricks.
 constexpr double mostCells = 8.0 * 1024 * 1024, mostBricks = 8.0 * 1024 * 1024;
