@@ -7,6 +7,7 @@
 #include <glm/gtc/packing.hpp>
 #include <span>
 
+#include "base/error.h"
 #include "gpu/transfer.h"
 
 namespace lumulus {
@@ -28,6 +29,10 @@ float densityOf(vdb::DensityFormat format, const std::byte* texel) {
 
 std::shared_ptr<const query::BrickField> readBack(gpu::Context& context, const cloud::Asset& asset,
                                                   const Check& check) {
+    if (asset.isSparse())
+        throw InputError("a ground and questions about clouds need their densities as dense volumes",
+                         "preparation.storage",
+                         "write storage = \"dense\", with a preparation.memory_budget that they fit");
     const auto texels = gpu::download<std::byte>(context, *asset.density);
     const std::size_t bytes = vdb::texelBytes(asset.format);
     vdb::Volume volume;
