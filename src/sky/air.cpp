@@ -54,16 +54,23 @@ double Air::aerosolPhase(double cosine) const {
     return 3.0 / (8.0 * pi) * (1.0 - g2) * (1.0 + cosine * cosine) / ((2.0 + g2) * away * std::sqrt(away));
 }
 
-std::array<double, 3> Air::aerosolMoments() const {
-    std::array<double, 3> moments{};
-    constexpr int steps = 2000;
+std::array<double, 5> Air::aerosolMoments() const {
+    std::array<double, 5> moments{};
+    constexpr int steps = 4000;
     for (int i = 0; i < steps; ++i) {
-        const double c = -1.0 + 2.0 * (i + 0.5) / steps, p = 2.0 * pi * aerosolPhase(c) * 2.0 / steps;
-        moments[0] += p;
-        moments[1] += p * c;
-        moments[2] += p * (1.5 * c * c - 0.5);
+        const double c = -1.0 + 2.0 * (i + 0.5) / steps, p = aerosolPhase(c);
+        double before = 0.0, polynomial = 1.0;  // Legendre's
+        for (std::size_t l = 0; l < moments.size(); ++l) {
+            moments[l] += p * polynomial;
+            const auto n = static_cast<double>(l);
+            const double next = ((2.0 * n + 1.0) * c * polynomial - n * before) / (n + 1.0);
+            before = polynomial;
+            polynomial = next;
+        }
     }
-    return {1.0, moments[1] / moments[0], moments[2] / moments[0]};
+    const double whole = moments[0];
+    for (double& moment : moments) moment /= whole;
+    return moments;
 }
 
 double moleculeDepth(double wavelength) {

@@ -39,8 +39,8 @@ struct Air {
     glm::dvec3 sunAbove() const { return rgb(Spectrum(1.0)); }
     /// Phase function of aerosol [1/sr] (Cornette and Shanks 1992).
     double aerosolPhase(double cosine) const;
-    /// Its moments ∫ p P_l dω for l = 0, 1, 2.
-    std::array<double, 3> aerosolMoments() const;
+    /// Its moments ∫ p P_l dω for l = 0 to 4.
+    std::array<double, 5> aerosolMoments() const;
 };
 
 /// Phase function of molecules [1/sr]; its moments are 1, 0, 0.1.

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "sky/harmonics.h"
 #include "sky/optical_depth.h"
 
 namespace lumulus::sky {
@@ -20,7 +21,7 @@ struct AirPoint {
 };
 
 /// Light of all orders of scattering that arrives at the points of the air, per unit of sunlight above it: spherical
-/// harmonics of degree 2 in the frame of the upward direction and the sun, by height and by the sun's cosine.
+/// harmonics up to degree 4 in the frame of the upward direction and the sun, by height and by the sun's cosine.
 class MultipleScattering {
   public:
     /// Iterates order by order until one adds less than 0.005; those that follow are summed as a geometric series.
@@ -36,15 +37,15 @@ class MultipleScattering {
     static constexpr int sunTexels = 32, heightTexels = 24;
     /// Coefficients of light that is symmetric about the plane of the upward direction and the sun.
     struct Incident {
-        glm::vec4 logMean{-70.0F};         ///< logarithm of the mean's coefficient
-        std::array<glm::vec4, 5> shape{};  ///< the others against it: up, sunwards, and three of degree 2
+        glm::vec4 logMean{-70.0F};                     ///< logarithm of the mean's coefficient
+        std::array<glm::vec4, harmonicCount> shape{};  ///< all against it; the first is 1
     };
 
   private:
     friend class ScatteringOrders;
     std::vector<Incident> incident_;              // of all orders
     std::array<Spectrum, sunTexels> irradiance_;  // by the sun's cosine
-    std::array<double, 3> aerosolMoments_;
+    std::array<float, highestDegree + 1> aerosolMoments_;
     Spectrum molecules_, aerosol_;
     int orders_ = 0;
 };

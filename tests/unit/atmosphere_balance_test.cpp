@@ -68,6 +68,23 @@ TEST(AtmosphereBalance, AerosolConservesLight) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(balance[i], 1.0, 0.006) << i;
 }
 
+/// Where the ground gives back next to nothing the harmonics of the light from below swing under 0. No number breaks,
+/// and the sky darkens step by step with the ground.
+TEST(AtmosphereBalance, BlackGroundHasASky) {
+    const auto illuminance = [](double albedo, double elevation) {
+        scene::Sky sky;
+        sky.groundAlbedo = dvec3(albedo);
+        return photometric(Atmosphere(sky).skyIrradiance({0.0, 2.0, 0.0}, scene::skyDirection(0.0, elevation)));
+    };
+    for (const double elevation : {-4.0, 0.0, 30.0}) {
+        const double black = illuminance(0.0, elevation), dark = illuminance(0.001, elevation),
+                     grey = illuminance(0.2, elevation);
+        EXPECT_GT(black, 0.85 * grey) << elevation;
+        EXPECT_LT(black, dark) << elevation;
+        EXPECT_LT(dark, black + 0.02 * (grey - black)) << elevation;
+    }
+}
+
 /// Forms in single precision against double precision: heights, and distances of the ground from 1.5 m to orbit.
 TEST(AtmosphereShell, FormsKeepTheirDigits) {
     for (const double height : {1.5, 100.0, 1e4, 4e5, 2e7, 4e7})
