@@ -17,7 +17,7 @@ SHARED_BEGIN
 /// Columns from the sun's azimuth to that opposite to it, denser at the sun; rows from the horizon to the zenith,
 /// denser at the horizon; then rows of the ground, from the point below the eye to the horizon.
 const int SKY_COLUMNS = 64;
-const int SKY_ROWS = 96;
+const int SKY_ROWS = 112;
 const int GROUND_ROWS = 32;
 
 /// Texels of the air between the eye and clouds: across and down the picture, and along the ray.

@@ -15,8 +15,8 @@ std::vector<Key> storageKeys() {
         choice(
             "preparation.storage", {"auto", "dense", "sparse"}, "\"auto\"",
             "How densities are stored: all voxels of the box (`dense`), or bricks of 8³ voxels where there is density "
-            "(`sparse`). `auto` takes bricks where a grid does not fit `memory_budget` otherwise, or fills next to "
-            "nothing of a large box.",
+            "(`sparse`). `auto` takes bricks where grids do not fit `memory_budget` or "
+            "an image of the device otherwise.",
             [](Draft& d, const Value& v) { d.scene.preparation.storage = storages.at(v.choice); }),
     };
 }

@@ -13,8 +13,6 @@ namespace lumulus {
 namespace {
 
 constexpr double bytesPerMiB = 1048576.0;
-/// Of a dense volume: what is smaller is not worth an index, and what is filled by this share is faster without one.
-constexpr double alwaysDenseMiB = 96.0, denseShare = 1.0 / 16.0;
 /// Voxels along a side of a 3D image.
 constexpr std::int64_t longestImage = 2048;
 /// Roots of an index: a box that has more is next to empty, and averaged instead.
@@ -144,16 +142,15 @@ bool wantsBricks(const scene::Preparation& preparation, const std::vector<Source
     if (preparation.storage != scene::DensityStorage::automatic)
         return preparation.storage == scene::DensityStorage::sparse;
     double denseMiB = 0.0;
-    bool large = false, scattered = false;
+    bool large = false;
     for (const Source& source : sources) {
         if (!source.isFile()) continue;
         const vdb::GridOutline outline = vdb::outline(source.cloud->vdb, optionsOf(source, limits));
         if (outline.roots > mostRoots) return false;
         denseMiB += outline.denseMiB;
         large = large || outline.longest > longestImage;
-        scattered = scattered || (outline.denseMiB > alwaysDenseMiB && outline.filled < denseShare);
     }
-    return large || scattered || denseMiB > preparation.memoryBudget;
+    return large || denseMiB > preparation.memoryBudget;
 }
 
 void readBricks(Source& source, const Report& report, const vdb::ReadLimits& limits) {
