@@ -67,7 +67,7 @@ std::vector<std::string> workingPaths(Sources from, std::size_t wrong) {
     Settings before;
     before.addFile(from.toml, from.name);
     for (std::size_t i = 0; i < wrong; ++i) before.addOverride(overrides[i]);
-    std::vector<std::string> working;
+    std::vector<std::string> working, ofNewEntries;
     std::size_t nearest = 0;
     for (const LikelyPath& likely : pathsLike(given.substr(0, equals))) {
         if (!working.empty() && likely.distance > nearest) break;
@@ -83,9 +83,10 @@ std::vector<std::string> workingPaths(Sources from, std::size_t wrong) {
             continue;
         }
         nearest = likely.distance;
-        working.push_back(likely.path);
+        const ArraySection* array = arrayOf(likely.path);
+        (array != nullptr && before.entries(array->name) == 0 ? ofNewEntries : working).push_back(likely.path);
     }
-    return working;
+    return working.empty() ? ofNewEntries : working;  // who mistypes a key of a cloud does not ask for a field
 }
 
 /// Refuses text that is too long or is no text of a scene.

@@ -270,13 +270,13 @@ TEST(Overrides, AdviceWorks) {
         EXPECT_NO_THROW(parseScene(toml, "x.toml", Overrides{first + override.substr(override.find('='))})) << advice;
         return advice;
     };
-    EXPECT_EQ(adviceFor("", "extinction=1"), "cloud.0.extinction or field.0.extinction");
-    EXPECT_EQ(adviceFor("", "extintion=1"), "cloud.0.extinction or field.0.extinction");
+    EXPECT_EQ(adviceFor("", "extinction=1"), "cloud.0.extinction");
+    EXPECT_EQ(adviceFor("", "extintion=1"), "cloud.0.extinction");
     EXPECT_EQ(adviceFor("", "phase.g=0.5"), "cloud.0.phase.g");
     EXPECT_EQ(adviceFor("", "width=64"), "image.width");
     EXPECT_EQ(adviceFor("", "clod.0.albedo=1"), "cloud.0.albedo");
     EXPECT_EQ(adviceFor("[[cloud]]\n[[cloud]]\n", "cloud.1.albdeo=1"), "cloud.1.albedo");
-    EXPECT_EQ(adviceFor("", "seed=7"), "cloud.0.seed or field.0.seed or photon_map.seed");
+    EXPECT_EQ(adviceFor("", "seed=7"), "cloud.0.seed or photon_map.seed");
     EXPECT_EQ(adviceFor("", "visibility=1000"), "fog.media.0.visibility");
     // no key takes this value, so none is advised; and nobody is sent to a key that does not exist
     EXPECT_EQ(adviceFor("", "width=-1"), "");
