@@ -70,10 +70,7 @@ std::vector<std::string> workingPaths(Sources from, std::size_t wrong) {
     std::vector<std::string> working, ofNewEntries;
     std::size_t nearest = 0;
     for (const LikelyPath& likely : pathsLike(given.substr(0, equals))) {
-        if (!working.empty() && likely.distance > nearest) break;
-        const ArraySection* array = arrayOf(likely.path);
-        if (array != nullptr && before.entries(array->name) == 0)
-            continue;  // nobody asks for a field by a typing error
+        if (working.size() + ofNewEntries.size() > 0 && likely.distance > nearest) break;
         overrides.back() = likely.path + given.substr(equals);
         from.overrides = overrides;
         std::optional<std::size_t> current;
