@@ -43,7 +43,6 @@ class PageTest(unittest.TestCase):
     def setUpClass(cls):
         cls.server = Server(LUMULUS, **cls.options)
         cls.server.write("scenes/two.toml", TWO_CLOUDS)
-        cls.server.write("scenes/presets.toml", '[[cloud]]\nprocedural = "sphere"\nresolution = 16\n')
         cls.server.write("scenes/large.toml", '[[cloud]]\nprocedural = "cumulus"\nresolution = 160\n')
         cls.browser = Browser(**cls.size)
 
@@ -246,22 +245,6 @@ Promise.all([import("/viewing.js"), import("/link.js")]).then(([{Viewing}, {fres
         done(seen);
     }, 1500);
 });"""
-
-
-class Quality(PageTest):
-    def test_presets_choose_the_photons(self):
-        """Of a scene that leaves them out. The address keeps the preset."""
-        browser = self.browser
-        browser.open(self.server, "#scene=presets.toml&quality=draft")
-        browser.wait(lambda: browser.figures()["samples"] == "200 k photons")
-        self.assertEqual(browser.element("quality").get_attribute("value"), "draft")
-        browser.set("quality", "interactive")
-        browser.wait(lambda: browser.figures()["samples"] == "1 M photons")
-        self.assertEqual(browser.link()["quality"], "interactive")
-        self.assertEqual(browser.notices(), {})
-        browser.open(self.server, browser.run("return location.hash"))
-        browser.wait(lambda: browser.figures()["generations"] == "20")
-        self.assertEqual(browser.element("quality").get_attribute("value"), "interactive")
 
 
 class Failures(PageTest):

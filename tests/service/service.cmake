@@ -30,7 +30,7 @@ endforeach()
 foreach(class Loading Systemd Ending)
   service_test(supervisor.${class} supervisor_test.py ${class})
 endforeach()
-foreach(class Page Quality Failures First Death Phone)
+foreach(class Page Failures First Death Phone)
   service_test(page.${class} page_test.py ${class})
 endforeach()
 foreach(class OwnLight HeavyLight SharedLight)
@@ -59,6 +59,6 @@ service_test(client client_test.py ${CMAKE_BINARY_DIR} $<$<BOOL:${LUMULUS_SANITI
 # 60 s: /usr/bin/python3 tests/service/load_test.py --seconds 60
 service_test(load load_test.py --seconds 15)
 # What waits for deadlines, shares and a browser has the machine for itself.
-set_tests_properties(service.load service.frames.Behaviour service.page.Page service.page.Quality service.page.Failures service.page.First
+set_tests_properties(service.load service.frames.Behaviour service.page.Page service.page.Failures service.page.First
                      service.page.Death service.page.Phone service.page.Files service.page.Token
                      service.page.OwnLight service.page.HeavyLight service.page.SharedLight PROPERTIES RUN_SERIAL TRUE)
