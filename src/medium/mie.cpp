@@ -79,8 +79,8 @@ std::vector<double> anglesOf(double size) {
     std::vector<double> angles{0.0};
     for (double step = finest; angles.back() + 0.5 * step < 0.5 * pi; step = std::min(1.05 * step, coarsest))
         angles.push_back(angles.back() + step);
-    const double stretch = 0.5 * pi / angles.back();
-    for (double& angle : angles) angle *= stretch;
+    const double scale = 0.5 * pi / angles.back();
+    for (double& angle : angles) angle *= scale;
     for (std::size_t i = angles.size() - 1; i-- > 0;) angles.push_back(pi - angles[i]);
     return angles;
 }

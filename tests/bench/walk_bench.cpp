@@ -40,7 +40,7 @@ double cpuSeconds() {
     return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-/// By the clock, and in time of the cores, which other work on the machine does not stretch as much.
+/// By the clock, and in time of the cores, which other work on the machine lengthens less.
 struct Duration {
     double wall = 0.0, cpu = 0.0;
 };

@@ -19,7 +19,7 @@ glm::dvec3 pointIn(std::mt19937& random, const glm::dvec3& lower, const glm::dve
     return lower + glm::dvec3(x, y, z) * (upper - lower);
 }
 
-/// A rotated and stretched place.
+/// A rotated place with a size of its own along each axis.
 vdb::Affine somePlace(const glm::dvec3& at) {
     return {{{3.0, 1.0, -0.5}, {-0.8, 2.5, 0.3}, {0.4, -0.2, 4.0}}, at};
 }

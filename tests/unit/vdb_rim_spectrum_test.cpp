@@ -15,6 +15,8 @@ namespace lumulus {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
+/// Of the rims in the large-eddy simulation RICO, 122 × 106 × 39 cells, from 420 to 120 m.
+constexpr double ricoSlope = 1.42;
 
 /// Powers over wavelength: bins of a third of an octave, from 4 m on.
 class Spectrum {
@@ -99,16 +101,17 @@ TEST(RimSpectrum, OfAStepIsThatOfEdges) {
 }
 
 TEST(RimSpectrum, OfACumulusIsLikeThatOfASimulation) {
-    const auto path = test::findTestData("rico122x106x39.txt");
     const Spectrum cumulus = spectrumOf(vdb::makeCloud({"cumulus", 500, 1}), 7, 0.3);
     const double coarse = cumulus.slope(120.0, 420.0), fine = cumulus.slope(12.0, 120.0);
     std::printf("cumulus: %.2f from 420 to 120 m, %.2f from 120 to 12 m\n", coarse, fine);
     EXPECT_LT(fine, 1.97);  // below that of a smooth rim
     EXPECT_GT(fine, 1.3);
-    if (!path) GTEST_SKIP() << "no rico122x106x39.txt: nothing to compare with";
-    const Spectrum rico = spectrumOf(test::readRico(*path), 1, 0.1);
-    std::printf("RICO:    %.2f from 420 to 120 m\n", rico.slope(120.0, 420.0));
-    EXPECT_NEAR(coarse, rico.slope(120.0, 420.0), 0.35);
+    EXPECT_NEAR(coarse, ricoSlope, 0.35);
+    // the simulated field itself, where it is among the data of the tests
+    if (const auto path = test::findTestData("rico122x106x39.txt")) {
+        const Spectrum rico = spectrumOf(test::readRico(*path), 1, 0.1);
+        EXPECT_NEAR(rico.slope(120.0, 420.0), ricoSlope, 0.01);
+    }
 }
 
 }  // namespace
