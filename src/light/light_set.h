@@ -18,7 +18,7 @@ class LightSet {
 
     scene::Sun sun;
     sky::Environment environment;
-    std::optional<scene::Ground> ground;  ///< absent: nothing is below the clouds
+    std::optional<scene::Ground> ground;  ///< absent: nothing is below the clouds, or the environment has it
 
     bool hasSun() const { return sun.irradiance.x > 0.0 || sun.irradiance.y > 0.0 || sun.irradiance.z > 0.0; }
     bool isDark() const { return !hasSun() && environment.isDark(sun); }

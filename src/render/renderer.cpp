@@ -89,7 +89,7 @@ Renderer::Renderer(const scene::Scene& scene, const Renderer& other, const Rende
 void Renderer::State::makePainters(const scene::Scene& scene) {
     statistics.device = context.device().name;
     if (!scene.fog.media.empty()) fog.emplace(context, scene.fog, check);
-    if (scene.ground) ground.emplace(keepRing);
+    if (world->lights.ground) ground.emplace(keepRing);
     for (const auto& asset : world->assets) statistics.collectors += asset->collectors.size();
     if (!world->visible().empty()) painter.emplace(context, *world, scene.draw);
 }

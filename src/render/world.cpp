@@ -43,6 +43,11 @@ std::vector<photon::Placement> placements(const World& world, const std::vector<
     return places;
 }
 
+/// The ground that is no part of the sky: an atmosphere has its planet's, with the same albedo and height.
+std::optional<scene::Ground> groundBelow(const scene::Scene& scene) {
+    return scene.sky.model == scene::SkyModel::atmosphere ? std::nullopt : scene.ground;
+}
+
 /// Makes a world step by step.
 class Maker {
   public:
@@ -52,7 +57,7 @@ class Maker {
           options_(options),
           report_(report),
           world_{.fog = scene.fog,
-                 .lights = {scene.sun, {scene.sky, scene.ground, scene.sun.angularDiameter}, scene.ground}} {}
+                 .lights = {scene.sun, {scene.sky, scene.ground, scene.sun.angularDiameter}, groundBelow(scene)}} {}
 
     World make() {
         const Stopwatch loading;
@@ -170,7 +175,7 @@ photon::Options Maker::photonOptions() const {
     options.bands = wanted.bands;
     options.seed = wanted.seed;
     options.keepRing = options_.keepRing;
-    options.ground = scene_.ground && world_.lights.environment.atmosphere() == nullptr;
+    options.ground = world_.lights.ground.has_value();
     options.splitGenerations = options_.progressive;
     options.check = options_.check;
     options.air = world_.lights.environment.atmosphere() != nullptr;

@@ -146,5 +146,33 @@ TEST(RendererAtmosphere, IsFiniteFromOrbitAndAtNight) {
     }
 }
 
+/// The ground of a scene is the planet's: the picture is that of a sky with this ground.
+TEST(RendererAtmosphere, AGroundIsThatOfThePlanet) {
+    scene::Scene ofSky = sceneUnder(30.0), withGround = ofSky;
+    ofSky.sky.groundAlbedo = dvec3(0.4);
+    withGround.ground = scene::Ground{dvec3(0.4), 0.0};
+    const Frame expected = test::render(ofSky), found = test::render(withGround);
+    EXPECT_EQ(found.image.layers, expected.image.layers);
+}
+
+/// Half the density twice at one place is lit like the whole once: photons of several clouds begin on discs round them,
+/// those of one on its box.
+TEST(RendererAtmosphere, TwoHalvesAreLitAsTheWhole) {
+    scene::Scene once = sceneUnder(20.0);
+    once.photonMap.photons = 400000;
+    scene::Scene twice = once;
+    twice.clouds[0].extinction *= 0.5;
+    twice.clouds.push_back(twice.clouds[0]);
+    const Frame whole = test::render(once), halves = test::render(twice);
+    for (const char* const name : {"cloud.R", "cloud.G", "cloud.B"}) {
+        const auto sum = [&](const Frame& frame) {
+            double all = 0.0;
+            for (const float value : frame.image.layers.at(name)) all += static_cast<double>(value);
+            return all;
+        };
+        EXPECT_NEAR(sum(halves) / sum(whole), 1.0, 0.02) << name;
+    }
+}
+
 }  // namespace
 }  // namespace lumulus
