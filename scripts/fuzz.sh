@@ -8,30 +8,33 @@ set -euo pipefail
 cd -P "$(dirname "${BASH_SOURCE[0]}")/.."
 
 target=${1:-} seconds=${2:-600} more=${3:-}
-longest=4096
+longest=4096 headers=()
 case $target in
 chunks)
-    sources=(service/protocol/{frame_fields,json_fields,message,requests}.cpp service/render/upload_store.cpp
-             service/values/sha256.cpp)
+    sources=(service/protocol/{cloud_edit_fields,frame_fields,json_fields,message,query_fields,requests}.cpp
+             service/render/upload_store.cpp service/values/sha256.cpp)
     libraries=(-lcrypto) longest=384
     ;;
 exr)
     sources=(src/base/{atomic_file,exr,exr_claims}.cpp)
     # shellcheck disable=SC2207
-    libraries=($(pkg-config --cflags --libs OpenEXR) -lOpenEXRCore)
+    headers=($(pkg-config --cflags OpenEXR))
+    # shellcheck disable=SC2207
+    libraries=($(pkg-config --libs OpenEXR) -lOpenEXRCore)
     ;;
 scene)
-    sources=(src/scene/{keys,load,quality,read_value,schema,settings,suggest,toml_guard,validate}.cpp)
-    libraries=()
+    sources=(src/scene/*.cpp
+             src/base/{display_transform_none,exposure,file_kind,number_table,progress,tone_curves,tonemap}.cpp)
+    libraries=(-ltbb)
     ;;
 session)
-    sources=(service/protocol/{error_reply,frame_fields,json_fields,message,requests,session}.cpp
-             service/values/sha256.cpp)
+    sources=(service/protocol/{cloud_edit_fields,error_reply,frame_fields,json_fields,message,query_fields}.cpp
+             service/protocol/{requests,session}.cpp service/values/sha256.cpp)
     libraries=(-lcrypto)
     ;;
 vdb)
-    sources=(vdb/{chunks,describe,file,header,load,sparse_field,transform}.cpp tests/unit/vdb_throwing_new.cpp)
-    libraries=(-I/usr/include/Imath -lopenvdb -ltbb -lblosc -lz -lImath) longest=65536
+    sources=(vdb/*.cpp src/base/{atomic_file,file_kind,progress,threads}.cpp tests/unit/vdb_throwing_new.cpp)
+    headers=(-I/usr/include/Imath) libraries=(-lopenvdb -ltbb -lblosc -lz -lImath) longest=65536
     ;;
 *)
     echo "usage: scripts/fuzz.sh chunks|exr|scene|session|vdb [SECONDS] [FOLDER]" >&2
@@ -47,12 +50,17 @@ mkdir -p "$build"/{corpus,found,merged}
 
 echo "== Building build/fuzz/$target/fuzz"
 flags=(-std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined -DGLM_ENABLE_EXPERIMENTAL
-       -DLUMULUS_FUZZ_INPUT="\"fuzz/${target}_input.h\"" -I. -Isrc -Ishaders -Itests)
-clang++ "${flags[@]}" src/base/{interrupt,text}.cpp "${sources[@]}" tests/fuzz/fuzz_main.cpp "${libraries[@]}" -lfmt \
-    -o "$build/fuzz"
+       -DLUMULUS_FUZZ_INPUT="\"fuzz/${target}_input.h\"" -I. -Isrc -Ishaders -Itests "${headers[@]}")
+compiler=(clang++)
+[[ ! -x $(command -v ccache) ]] || compiler=(ccache clang++)
+sources+=(src/base/{interrupt,text}.cpp tests/fuzz/fuzz_main.cpp)
+printf "$build/objects/%s\n" "${sources[@]}" | xargs dirname | xargs mkdir -p
+printf '%s\n' "${sources[@]}" | xargs -P "$(nproc)" -I{} "${compiler[@]}" "${flags[@]}" -c {} -o "$build/objects/{}.o"
+(cd "$build/objects" && clang++ "${flags[@]}" "${sources[@]/%/.o}" "${libraries[@]}" -lfmt -o "$build/fuzz")
 
 echo "== Fuzzing $target for $seconds s"
 [[ ! -w /dev/shm ]] || export TMPDIR=/dev/shm # inputs become files: where no disk is
+export LSAN_OPTIONS=suppressions=$PWD/tests/leaks.txt # leaks inside OpenVDB
 options=(-max_len="$longest" -timeout=10 -artifact_prefix="$build/")
 "$build/fuzz" "${options[@]}" -max_total_time="$seconds" -print_final_stats=1 "$build/found" "$build/corpus"
 "$build/fuzz" "${options[@]}" -merge=1 "$build/merged" "$build/corpus" "$build/found"

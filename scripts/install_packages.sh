@@ -5,10 +5,12 @@ set -euo pipefail
 
 packages=(
     # tools
-    g++ cmake ninja-build ccache clang-format glslang-tools pkg-config python3 python3-numpy python3-openimageio python3-pil
-    # clouds and pictures
+    g++ cmake ninja-build ccache clang-format glslang-tools pkg-config dpkg-dev file python3 python3-numpy python3-openimageio python3-pil
+    # the Python module and its tests
+    pybind11-dev python3-dev python3-openvdb
+    # clouds and pictures; nearest collectors
     libopenvdb-dev libnanovdb-dev libboost-iostreams-dev libtbb-dev libopenexr-dev libpng-dev libjpeg62-turbo-dev
-    libopencolorio-dev
+    libopencolorio-dev libflann-dev
     # plots
     libcairo2-dev fonts-dejavu-core
     # Vulkan: headers, loader, a driver that runs on the CPU, validation

@@ -32,13 +32,6 @@ CodeRange unpackRange(std::uint32_t packed) {
             imath_half_to_float(static_cast<std::uint16_t>(packed >> 16U))};
 }
 
-float texelValue(std::span<const std::byte> texels, std::size_t place, DensityFormat format) {
-    if (format == DensityFormat::r8) return static_cast<float>(texels[place]) / 255.0F;
-    std::uint16_t bits = 0;
-    std::memcpy(&bits, &texels[2 * place], sizeof(bits));
-    return imath_half_to_float(bits);
-}
-
 CodeRange encode(std::span<const float> values, DensityFormat format, std::span<std::byte> codes, CodeError& error) {
     const auto [least, most] = std::ranges::minmax_element(values);
     CodeRange range{0.0F, 1.0F};

@@ -24,9 +24,6 @@ struct CodeError {
     double relative() const { return values > 0.0 ? errors / values : 0.0; }
 };
 
-/// A texel as shaders see it.
-float texelValue(std::span<const std::byte> texels, std::size_t place, DensityFormat format);
-
 /// Stores values ≥ 0 as texels; `codes` has room for them. Zero stays zero, and the greatest value is kept up to
 /// 1/1024 above it (exactly where half floats have it). Returns the range, whose span is above 0, as unpackRange()
 /// gives it back. Adds the error to `error`.

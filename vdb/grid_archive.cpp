@@ -114,7 +114,12 @@ void GridArchive::streamLeaves(openvdb::FloatGrid& grid, const LeafVisit& visit)
     for (Leaf* leaf : leaves) {
         const auto place = static_cast<std::uint64_t>(in_.tellg());
         leaf->readBuffers(in_, grid.saveFloatAsHalf());
-        visit(*leaf, place);
+        try {
+            visit(*leaf, place);
+        } catch (...) {  // says nothing about the file
+            file_.noteEnd(std::current_exception());
+            throw;
+        }
         Leaf::Buffer none(openvdb::PartialCreate(), 0.0F);
         leaf->swap(none);
     }

@@ -1,17 +1,24 @@
 #include "vdb/header.h"
 
+#include <openvdb/Metadata.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
-#include <map>
 #include <string>
 
 namespace lumulus::vdb {
 namespace {
 
-/// Types of metadata whose values have a fixed size.
-const std::map<std::string, std::uint32_t> kNumberBytes{
-    {"bool", 1},   {"int32", 4},  {"int64", 8},  {"float", 4},  {"double", 8}, {"vec2i", 8},  {"vec2s", 8},
-    {"vec2d", 16}, {"vec3i", 12}, {"vec3s", 12}, {"vec3d", 24}, {"mat4s", 64}, {"mat4d", 128}};
+/// Bytes of the value of a type of metadata that OpenVDB reads by its own size, not by the file's; 0: it reads what the
+/// file tells.
+std::uint32_t fixedBytes(const std::string& type) {
+    using openvdb::Metadata;
+    return Metadata::isRegisteredType(type) ? Metadata::createMetadata(type)->size() : 0;
+}
+
+/// The type of metadata that has masks and sizes of leaves.
+constexpr const char* kLeavesForLater = "__delayedload";
 
 /// Walks over a file and notes if a length led past the end of the file.
 class Walk {
@@ -41,7 +48,7 @@ class Walk {
 
     /// Reads a 32-bit length and that many bytes. Returns the bytes if they are few, like the names of types.
     std::string sized() {
-        constexpr std::uint32_t longest = 16;
+        constexpr std::uint32_t longest = 64;
         const auto length = number<std::uint32_t>();
         const std::int64_t start = position_;
         bytes(length);
@@ -54,19 +61,54 @@ class Walk {
         return text;
     }
 
-    /// Walks over name, type and value of each entry. OpenVDB reads numbers by their own size, not by the file's.
+    /// Walks over name, type and value of each entry.
     void metadata() {
         const auto entries = number<std::int32_t>();
         for (std::int32_t i = 0; i < entries && within_; ++i) {
             sized();
-            const auto known = kNumberBytes.find(sized());
+            const std::string type = sized();
+            const std::uint32_t fixed = fixedBytes(type);
             const auto length = number<std::uint32_t>();
-            within_ = within_ && (known == kNumberBytes.end() || known->second == length);
+            within_ = within_ && (fixed == 0 || fixed == length);
+            const std::int64_t start = position_;
             bytes(length);
+            if (type == kLeavesForLater && length > 0) leavesForLater(start, position_);
         }
     }
 
   private:
+    /// Where OpenVDB would find the leaves' values later on: it reads by the numbers in there, whatever the length that
+    /// the file tells. They are a number for each leaf and, twice, the bytes that follow: a chunk of Blosc, or the
+    /// numbers themselves where that is 0.
+    void leavesForLater(std::int64_t start, std::int64_t end) {
+        constexpr std::int64_t bytesOfLeaf = 64;  // its mask, at least
+        constexpr std::uint32_t none = 0xFFFFFFFF;
+        position_ = start;
+        const auto leaves = static_cast<std::int64_t>(number<std::uint32_t>());
+        within_ = within_ && leaves <= size_ / bytesOfLeaf;
+        for (const std::int64_t bytesOfNumber : {1, 8}) {
+            const auto stored = number<std::uint32_t>();
+            if (stored == none && bytesOfNumber > 1) break;
+            if (stored == 0)
+                bytes(leaves * bytesOfNumber);
+            else
+                chunk(stored, leaves * bytesOfNumber);
+        }
+        within_ = within_ && position_ <= end;
+        position_ = end;
+    }
+
+    /// A chunk of Blosc, whose head tells how many bytes become of it.
+    void chunk(std::int64_t stored, std::int64_t most) {
+        constexpr std::int64_t least = 128;  // OpenVDB fills smaller ones up
+        const std::int64_t start = position_;
+        bytes(4);
+        const auto unpacked = static_cast<std::int64_t>(number<std::uint32_t>());
+        within_ = within_ && stored >= 16 && unpacked <= std::max(most, least);
+        position_ = start;
+        bytes(stored);
+    }
+
     std::ifstream in_;
     std::int64_t size_ = 0;
     std::int64_t position_ = 0;

@@ -37,18 +37,6 @@ double bricksIn(const openvdb::CoordBBox& box) {
     return extent.x * extent.y * extent.z / 512.0;
 }
 
-/// Calls `visit(box, value)` for the active tiles above leaves.
-template <typename Visit>
-void forTiles(const openvdb::FloatTree& tree, const Visit& visit) {
-    auto tile = tree.cbeginValueOn();
-    tile.setMaxDepth(openvdb::FloatTree::ValueOnCIter::LEAF_DEPTH - 1);
-    for (; tile; ++tile) {
-        openvdb::CoordBBox box;
-        tile.getBoundingBox(box);
-        visit(box, *tile);
-    }
-}
-
 /// The choice of load(), but that a grid counts as filled by its structure: no values are read.
 GridChoice choose(const std::filesystem::path& path, const LoadOptions& options) {
     GridFile probe(path, options.limits);
@@ -141,7 +129,7 @@ class Tabler {
     void addTiles(const openvdb::FloatTree& tree) {
         SparseField tiles;
         double bricks = 0.0;
-        forTiles(tree, [&](const openvdb::CoordBBox& box, float value) {
+        forTiles(tree.root(), [&](const openvdb::CoordBBox& box, float value) {
             tiles.blocks.push_back({{toGlm(box.min()), toGlm(box.max())}, nullptr, value});
             bricks += bricksIn(box);
         });
@@ -207,7 +195,7 @@ GridOutline outline(const std::filesystem::path& path, const LoadOptions& option
     grid->tree().evalLeafBoundingBox(box);
     if (box.empty()) return outline;
     outline.bricks = static_cast<double>(grid->tree().leafCount());
-    forTiles(grid->tree(), [&](const openvdb::CoordBBox& tile, float) {
+    forTiles(grid->tree().root(), [&](const openvdb::CoordBBox& tile, float) {
         box.expand(tile);
         outline.bricks += bricksIn(tile);
     });

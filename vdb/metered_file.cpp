@@ -37,17 +37,39 @@ void MeteredFile::rethrow() const {
     if (stopped_) std::rethrow_exception(stopped_);
 }
 
+/// Tiles are three coordinates, a value and a flag; where a value is a bool, that is a flag too. What follows three
+/// coordinates otherwise are masks of a node.
+void MeteredFile::checkTile(const char* read, std::streamsize bytes) {
+    constexpr std::streamsize coordinates = 3 * sizeof(std::int32_t);
+    const bool isFlag = bytes == 1 && (*read == 0 || *read == 1);
+    if (tile_.has == Tile::value && bytes == 1) {
+        const bool fits = isFlag && (!tile_.isByte || tile_.isFlag);
+        tile_ = {};
+        if (!fits)
+            throw InputError("the file is damaged: a tile is neither active nor inactive", path_.string(),
+                             "write it again");
+    } else if (tile_.has == Tile::coordinates && !isMask(bytes)) {
+        tile_ = {Tile::value, isFlag, bytes == 1};
+    } else {
+        tile_ = {};
+        if (bytes == coordinates) tile_.has = Tile::coordinates;
+    }
+}
+
 // The stream above may hide what is thrown here behind an error of its own.
 std::streamsize MeteredFile::xsgetn(char* to, std::streamsize bytes) {
+    std::streamsize read = 0;
     try {
         limits_.check();
         const bool head = bytes == leafMask && leaves_ == Leaves::withoutValues;
         if (counting_ && isMask(bytes)) foresee((head ? bytesOfHead : bytesOfMask) * static_cast<std::uint64_t>(bytes));
+        read = std::filebuf::xsgetn(to, bytes);
+        if (counting_ && read == bytes) checkTile(to, bytes);
     } catch (...) {
         stopped_ = std::current_exception();
         throw;
     }
-    return std::filebuf::xsgetn(to, bytes);
+    return read;
 }
 
 }  // namespace lumulus::vdb

@@ -9,8 +9,6 @@
 #include <cstdint>
 #include <cstring>
 
-#include "base/interrupt.h"
-
 namespace lumulus::vdb {
 namespace {
 
@@ -45,13 +43,13 @@ struct Sums {
 
 /// Σ|q − v| / Σ v. The order of the sums is fixed, so that the choice of the format does not depend on threads.
 template <typename To, typename From>
-double measureError(const Volume& volume, const To& to, const From& from) {
+double measureError(const Volume& volume, const To& to, const From& from, const Check& check) {
     using Range = tbb::blocked_range<std::size_t>;
     const double scale = 1.0 / static_cast<double>(volume.maximum);
     const Sums sums = tbb::parallel_deterministic_reduce(
         Range(0, volume.density.size(), kGrain), Sums{},
         [&](const Range& range, Sums part) {
-            stopIfInterrupted();
+            check();
             for (std::size_t i = range.begin(); i != range.end(); ++i) {
                 const float density = volume.density[i];
                 if (density == 0.0F) continue;
@@ -68,12 +66,12 @@ double measureError(const Volume& volume, const To& to, const From& from) {
 }
 
 template <typename Texel, typename Convert>
-std::vector<std::byte> store(const Volume& volume, const Convert& convert) {
+std::vector<std::byte> store(const Volume& volume, const Convert& convert, const Check& check) {
     std::vector<std::byte> texels(volume.density.size() * sizeof(Texel));
     if (volume.empty()) return texels;
     using Range = tbb::blocked_range<std::size_t>;
     tbb::parallel_for(Range(0, volume.density.size(), kGrain), [&](const Range& range) {
-        stopIfInterrupted();
+        check();
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             const Texel texel = convert(volume.density[i] / volume.maximum);
             std::memcpy(texels.data() + i * sizeof(Texel), &texel, sizeof(Texel));
@@ -84,19 +82,31 @@ std::vector<std::byte> store(const Volume& volume, const Convert& convert) {
 
 }  // namespace
 
+float texelValue(std::span<const std::byte> texels, std::size_t place, DensityFormat format) {
+    if (format == DensityFormat::r8) return static_cast<float>(texels[place]) / 255.0F;
+    if (format == DensityFormat::r32f) {
+        float value = 0.0F;
+        std::memcpy(&value, &texels[4 * place], sizeof(value));
+        return value;
+    }
+    std::uint16_t bits = 0;
+    std::memcpy(&bits, &texels[2 * place], sizeof(bits));
+    return imath_half_to_float(bits);
+}
+
 std::size_t texelBytes(DensityFormat format) {
     return format == DensityFormat::r8 ? 1 : format == DensityFormat::r16f ? 2 : 4;
 }
 
-QuantisedVolume quantise(const Volume& volume) {
-    if (volume.empty()) return {DensityFormat::r8, store<std::uint8_t>(volume, toByte), 0.0};
-    if (const double error = measureError(volume, toByte, fromByte); error <= kTolerance) {
-        return {DensityFormat::r8, store<std::uint8_t>(volume, toByte), error};
+QuantisedVolume quantise(const Volume& volume, const Check& check) {
+    if (volume.empty()) return {DensityFormat::r8, store<std::uint8_t>(volume, toByte, check), 0.0};
+    if (const double error = measureError(volume, toByte, fromByte, check); error <= kTolerance) {
+        return {DensityFormat::r8, store<std::uint8_t>(volume, toByte, check), error};
     }
-    if (const double error = measureError(volume, toHalf, fromHalf); error <= kTolerance) {
-        return {DensityFormat::r16f, store<std::uint16_t>(volume, toHalf), error};
+    if (const double error = measureError(volume, toHalf, fromHalf, check); error <= kTolerance) {
+        return {DensityFormat::r16f, store<std::uint16_t>(volume, toHalf, check), error};
     }
-    return {DensityFormat::r32f, store<float>(volume, toFloat), measureError(volume, toFloat, fromFloat)};
+    return {DensityFormat::r32f, store<float>(volume, toFloat, check), measureError(volume, toFloat, fromFloat, check)};
 }
 
 }  // namespace lumulus::vdb

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
+#include "base/interrupt.h"
 #include "vdb/volume.h"
 
 namespace lumulus::vdb {
@@ -19,9 +21,12 @@ struct QuantisedVolume {
 /// Bytes of one texel.
 std::size_t texelBytes(DensityFormat format);
 
+/// Texel number `place` as shaders see it.
+float texelValue(std::span<const std::byte> texels, std::size_t place, DensityFormat format);
+
 /// Divides by the maximum, which is stored exactly as 1, and takes the smallest format whose measured relative error is
 /// at most 1e-3; R32F is the last choice. Rounds to nearest (half floats: ties to even). An empty volume gives zeros in
-/// R8. Errors: Error if interrupted.
-QuantisedVolume quantise(const Volume& volume);
+/// R8. `check` is asked between pieces, by several threads at once. Errors: what it throws.
+QuantisedVolume quantise(const Volume& volume, const Check& check = stopIfInterrupted);
 
 }  // namespace lumulus::vdb

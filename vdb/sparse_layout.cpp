@@ -104,8 +104,7 @@ void Layout::listBricks() {
             if ((below & ~leaf.touches) == 0) add(leaf.at - glm::ivec3(below & 1U, below >> 1U & 1U, below >> 2U));
     }
     std::ranges::sort(keys_);
-    const auto rest = std::ranges::unique(keys_);
-    keys_.erase(rest.begin(), rest.end());
+    keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());  // clang 14 cannot compile that of ranges
 }
 
 /// Lays the bricks from `first` on that lie in the same cube of 2^level bricks along each axis. Returns the first brick

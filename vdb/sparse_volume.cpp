@@ -129,12 +129,12 @@ float densityAt(const SparseVolume& volume, std::span<const std::byte> texels, c
     const glm::vec3 centred = glm::clamp(voxel - 0.5F, glm::vec3(0.0F), glm::vec3(volume.size) - 1.0F);
     const glm::ivec3 brick = glm::min(glm::ivec3(centred) / SparseVolume::brickEdge, volume.bricks() - 1);
     const BrickEntry entry = volume.entries[volume.entryOf(brick)];
-    const int level = static_cast<int>(entry.place >> 28U);
+    const int level = levelOf(entry);
     const glm::ivec3 group = (brick >> level) * (SparseVolume::brickEdge << level);
     const glm::vec3 local = (centred - glm::vec3(group)) / static_cast<float>(1 << level);
     const glm::ivec3 first = glm::min(glm::ivec3(local), glm::ivec3(SparseVolume::brickEdge - 1));
     const glm::vec3 part = local - glm::vec3(first);
-    const glm::uvec3 slot(entry.place & 511U, entry.place >> 9U & 511U, entry.place >> 18U & 1023U);
+    const glm::uvec3 slot = slotOf(entry.place);
     const auto width = static_cast<std::size_t>(volume.poolWidth);
     const std::size_t number = slot.x + width * (slot.y + width * slot.z);
     const CodeRange range = unpackRange(entry.range);

@@ -53,6 +53,15 @@ inline std::uint32_t slotPlace(const glm::uvec3& slot) {
     return slot.x | slot.y << 9U | slot.z << 18U;
 }
 
+/// The slot of an entry's place.
+inline glm::uvec3 slotOf(std::uint32_t place) {
+    return {place & 511U, place >> 9U & 511U, place >> 18U & 1023U};
+}
+
+inline int levelOf(const BrickEntry& entry) {
+    return static_cast<int>(entry.place >> 28U);
+}
+
 /// A density field in bricks of 8³ voxels. A brick with texels has a slot of 9³ of them in a pool, so that
 /// interpolation stays within it; a slot of level l holds 2^l bricks along each axis at texels 2^l voxels apart. Empty
 /// bricks and constant ones have none. Bricks are found by two levels: a root for each 4³ bricks, and 4³ entries for

@@ -13,9 +13,15 @@ IndexBox toBox(const openvdb::CoordBBox& box) {
 
 template <typename Grid>
 bool anyAbove(const openvdb::GridBase& grid) {
-    for (auto value = static_cast<const Grid&>(grid).cbeginValueOn(); value; ++value)
-        if (*value > 0) return true;
-    return false;
+    const auto& tree = static_cast<const Grid&>(grid).tree();
+    bool any = false;
+    forTiles(tree.root(), [&any](const openvdb::CoordBBox&, auto value) { any = any || value > 0; });
+    std::vector<const typename Grid::TreeType::LeafNodeType*> leaves;
+    if (!any) tree.getNodes(leaves);
+    for (const auto* leaf : leaves)
+        for (auto value = leaf->cbeginValueOn(); value; ++value)
+            if (*value > 0) return true;
+    return any;
 }
 
 }  // namespace
@@ -47,13 +53,9 @@ SparseField listBlocks(openvdb::FloatTree& tree) {
         for (auto value = leaf.beginValueOff(); value; ++value) value.setValue(0.0F);
         field.blocks[i] = {toBox(leaf.getNodeBoundingBox()), leaf.buffer().data(), 0.0F};
     });
-    auto tile = tree.cbeginValueOn();
-    tile.setMaxDepth(openvdb::FloatTree::ValueOnCIter::LEAF_DEPTH - 1);
-    for (; tile; ++tile) {
-        openvdb::CoordBBox box;
-        tile.getBoundingBox(box);
-        field.blocks.push_back({toBox(box), nullptr, *tile});
-    }
+    forTiles(tree.root(), [&field](const openvdb::CoordBBox& box, float value) {
+        field.blocks.push_back({toBox(box), nullptr, value});
+    });
     return field;
 }
 

@@ -1,18 +1,16 @@
 #include "vdb/write.h"
 
-#include <fmt/format.h>
-#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 
 #include <cassert>
-#include <cstdint>
+#include <functional>
 #include <span>
-#include <sstream>
 #include <string>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "vdb/grid_bytes.h"
 
 namespace lumulus::vdb {
 namespace {
@@ -43,48 +41,51 @@ openvdb::FloatGrid::Ptr makeGrid(const Volume& volume) {
     return grid;
 }
 
-/// FNV-1a (Fowler, Noll, Vo), 64 bits.
-std::uint64_t hashOf(std::string_view bytes, std::uint64_t hash) {
-    for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3U;
-    return hash;
+openvdb::Vec3SGrid::Ptr makeGrid(const VelocityGrid& velocities) {
+    openvdb::Vec3SGrid::Ptr grid = openvdb::Vec3SGrid::create(openvdb::Vec3s(0.0F));
+    auto accessor = grid->getAccessor();
+    std::size_t i = 0;
+    for (int z = 0; z < velocities.size.z; ++z)
+        for (int y = 0; y < velocities.size.y; ++y)
+            for (int x = 0; x < velocities.size.x; ++x, ++i) {
+                const glm::vec3& value = velocities.values[i];
+                accessor.setValue({x, y, z}, {value.x, value.y, value.z});
+            }
+    grid->setName("vel");
+    grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
+    grid->setTransform(indexToWorld(velocities.toWorld));
+    return grid;
 }
 
-/// Replaces the random UUID that OpenVDB gives each file by one from the content (RFC 9562, version 8), so that equal
-/// clouds give equal bytes.
-void setContentUuid(std::string& file) {
-    constexpr std::size_t start = 21;   // after the magic number, three versions and a flag
-    constexpr std::size_t length = 36;  // in text
-    const std::string_view content = std::string_view(file).substr(start + length);
-    std::uint64_t high = hashOf(content, 0xCBF29CE484222325U);
-    std::uint64_t low = hashOf(content, high);
-    high = (high & 0xFFFFFFFFFFFF0FFFU) | 0x8000U;
-    low = (low >> 2U) | 0x8000000000000000U;
-    file.replace(start, length,
-                 fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:012x}", high >> 32U, (high >> 16U) & 0xFFFFU,
-                             high & 0xFFFFU, low >> 48U, low & 0xFFFFFFFFFFFFU));
-}
-
-}  // namespace
-
-void write(const Volume& volume, const std::filesystem::path& path) {
+/// A file of one volume and what `more` makes beside it.
+void writeGrids(const Volume& volume, const std::filesystem::path& path,
+                const std::function<openvdb::GridBase::Ptr()>& more) {
     assert(volume.density.size() == volume.index(0, 0, volume.size.z));
     openvdb::initialize();
     std::string bytes;
     try {
         const openvdb::FloatGrid::Ptr grid = makeGrid(volume);
         grid->setTransform(indexToWorld(volume.toWorld));
-        std::ostringstream out(std::ios::binary);
-        out.exceptions(std::ios::badbit | std::ios::failbit);
-        openvdb::io::Stream(out).write(openvdb::GridCPtrVec{grid});
-        bytes = std::move(out).str();
+        openvdb::GridCPtrVec grids{grid};
+        if (more) grids.push_back(more());
+        bytes = bytesOf(grids);
     } catch (const openvdb::ArithmeticError& error) {
         throw InputError(std::string("the cloud's transform cannot be saved: ") + error.what(), path.string(),
                          "give the cloud larger voxels");
     } catch (const openvdb::Exception& error) {
         throw Error(std::string("the cloud cannot be saved: ") + error.what(), path.string(), "report this");
     }
-    setContentUuid(bytes);
     writeFile(path, std::as_bytes(std::span(bytes)));
+}
+
+}  // namespace
+
+void write(const Volume& volume, const std::filesystem::path& path) {
+    writeGrids(volume, path, {});
+}
+
+void write(const Volume& volume, const VelocityGrid& velocities, const std::filesystem::path& path) {
+    writeGrids(volume, path, [&velocities] { return makeGrid(velocities); });
 }
 
 }  // namespace lumulus::vdb

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "vdb/deform.h"
 #include "vdb/volume.h"
 
 namespace lumulus::vdb {
@@ -12,5 +13,8 @@ namespace lumulus::vdb {
 /// Throws InputError if the place cannot be written to or the transform cannot be saved, Error if writing fails (disk
 /// full).
 void write(const Volume& volume, const std::filesystem::path& path);
+
+/// The same with a second grid "vel" of velocities [m/s].
+void write(const Volume& volume, const VelocityGrid& velocities, const std::filesystem::path& path);
 
 }  // namespace lumulus::vdb

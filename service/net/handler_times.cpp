@@ -1,6 +1,11 @@
 #include "service/net/handler_times.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
+#include <charconv>
 
 #include "service/telemetry/metrics.h"
 
@@ -9,31 +14,35 @@ namespace lumulus::service {
 namespace {
 
 using std::chrono::microseconds;
+using std::chrono::nanoseconds;
 
 // Asio's macros have no argument that could bring it
 thread_local HandlerTimes* timesOfThread = nullptr;
 
-::rusage usageOfThread() {
-    ::rusage used{};
-    ::getrusage(RUSAGE_THREAD, &used);
-    return used;
-}
-
-microseconds processorTime(const ::rusage& used) {
-    const auto of = [](const ::timeval& time) {
-        return std::chrono::seconds(time.tv_sec) + microseconds(time.tv_usec);
-    };
-    return of(used.ru_utime) + of(used.ru_stime);
+nanoseconds waitedForCore() {
+    return timesOfThread == nullptr ? nanoseconds(0) : timesOfThread->waitedForCore();
 }
 
 }  // namespace
 
-HandlerTimes::HandlerTimes(Metrics& metrics) : metrics_(metrics) {
+HandlerTimes::HandlerTimes(Metrics& metrics)
+    : metrics_(metrics), accounts_(::open("/proc/thread-self/schedstat", O_RDONLY | O_CLOEXEC)) {
     timesOfThread = this;
 }
 
 HandlerTimes::~HandlerTimes() {
     timesOfThread = nullptr;
+    if (accounts_ >= 0) ::close(accounts_);
+}
+
+nanoseconds HandlerTimes::waitedForCore() const {
+    std::array<char, 96> text;  // "worked waited slices", the times in nanoseconds
+    const ssize_t size = accounts_ >= 0 ? ::pread(accounts_, text.data(), text.size(), 0) : 0;
+    const char* const end = text.data() + std::max<ssize_t>(0, size);
+    const char* const space = std::find(static_cast<const char*>(text.data()), end, ' ');
+    nanoseconds::rep waited = 0;
+    if (space != end) std::from_chars(space + 1, end, waited);
+    return nanoseconds(waited);
 }
 
 void HandlerTimes::took(microseconds time) {
@@ -43,18 +52,15 @@ void HandlerTimes::took(microseconds time) {
     metrics_.set(Metrics::longestHandler, time.count());
 }
 
-HandlerTimer::HandlerTimer() : begun_(std::chrono::steady_clock::now()), used_(usageOfThread()) {}
+HandlerTimer::HandlerTimer() : waitedBefore_(waitedForCore()), begun_(std::chrono::steady_clock::now()) {}
 
-/// A thread from which the machine took its core did not take the time itself: then its processor time counts.
+/// A thread that had to wait for a core did not take that time itself.
 HandlerTimer::~HandlerTimer() {
     if (timesOfThread == nullptr) return;
-    auto time = std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now() - begun_);
-    constexpr microseconds noticed{1000};
-    if (time > noticed) {
-        const ::rusage now = usageOfThread();
-        if (now.ru_nivcsw != used_.ru_nivcsw) time = std::min(time, processorTime(now) - processorTime(used_));
-    }
-    timesOfThread->took(time);
+    nanoseconds time = std::chrono::steady_clock::now() - begun_;
+    constexpr std::chrono::milliseconds noticed{1};
+    if (time > noticed) time -= waitedForCore() - waitedBefore_;
+    timesOfThread->took(std::chrono::duration_cast<microseconds>(std::max(time, nanoseconds(0))));
 }
 
 }  // namespace lumulus::service

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sys/resource.h>
-
 #include <chrono>
 
 // Asio calls these where it runs a handler (BOOST_ASIO_CUSTOM_HANDLER_TRACKING,
@@ -25,9 +23,12 @@ class HandlerTimes {
     static constexpr std::chrono::milliseconds bound{10};
 
     void took(std::chrono::microseconds time);
+    /// Time that the thread has waited for a core while others had all of them; 0 where the kernel does not tell.
+    std::chrono::nanoseconds waitedForCore() const;
 
   private:
     Metrics& metrics_;
+    int accounts_;  ///< the kernel's of the thread; -1 where there are none
     std::chrono::microseconds longest_{};
 };
 
@@ -40,8 +41,8 @@ class HandlerTimer {
     ~HandlerTimer();
 
   private:
+    std::chrono::nanoseconds waitedBefore_;  // for a core; read first, or a wait between the two would count
     std::chrono::steady_clock::time_point begun_;
-    ::rusage used_;  // when it began
 };
 
 }  // namespace lumulus::service

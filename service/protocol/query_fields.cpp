@@ -19,15 +19,17 @@ QueryProduct readProduct(JsonFields& fields) {
     if (name == "segments") return QueryProduct::segments;
     if (name == "sun") return QueryProduct::sun;
     if (name == "ground_shadow") return QueryProduct::groundShadow;
-    throw RequestError("bad_request", "products must be one of segments, sun, ground_shadow in a list", "products");
+    if (name == "ambient") return QueryProduct::ambient;
+    throw RequestError("bad_request", "products must be one of segments, sun, ground_shadow, ambient in a list",
+                       "products");
 }
 
-std::vector<double> readCoordinates(const std::vector<std::byte>& payload, std::size_t columns) {
+std::vector<double> readCoordinates(const std::vector<std::byte>& payload, std::size_t columns, std::size_t most) {
     const std::size_t row = columns * sizeof(double);
     if (payload.empty() || payload.size() % row != 0)
         throw RequestError("bad_request", "the payload must be " + std::to_string(columns) + " doubles a row");
-    if (payload.size() / row > mostQueryWays)
-        throw RequestError("too_large", "a query may hold " + std::to_string(mostQueryWays) + " rows");
+    if (payload.size() / row > most)
+        throw RequestError("too_large", "such a query may hold " + std::to_string(most) + " rows");
     std::vector<double> numbers(payload.size() / sizeof(double));
     std::memcpy(numbers.data(), payload.data(), payload.size());
     for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -55,7 +57,9 @@ QueryRequest readQuery(JsonFields& fields, const std::vector<std::byte>& payload
     QueryRequest query;
     query.product = readProduct(fields);
     if (query.product != QueryProduct::groundShadow) {
-        query.numbers = readCoordinates(payload, query.product == QueryProduct::segments ? 6 : 3);
+        const bool ambient = query.product == QueryProduct::ambient;
+        query.numbers = readCoordinates(payload, query.product == QueryProduct::segments ? 6 : 3,
+                                        ambient ? mostAmbientPoints : mostQueryWays);
         return query;
     }
     if (!payload.empty()) throw RequestError("bad_request", "a ground_shadow takes no payload");

@@ -108,7 +108,7 @@ Message messageOf(std::uint64_t id, const LightChanged&) {
 }
 
 Message messageOf(std::uint64_t id, const QueryAnswer& answer) {
-    constexpr const char* names[] = {"segments", "sun", "ground_shadow"};
+    constexpr const char* names[] = {"segments", "sun", "ground_shadow", "ambient"};
     const json body{{"product", names[static_cast<std::size_t>(answer.product)]},
                     {"width", answer.width},
                     {"height", answer.height},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "service/protocol/cloud_edit_fields.h"
 #include "service/protocol/frame_fields.h"
 #include "service/protocol/query_fields.h"
 
@@ -109,11 +110,15 @@ Change readChange(JsonFields& fields) {
     Change change;
     change.light = readLight(fields);
     change.light.move = fields.vector("move", -1e9, 1e9);
-    if (change.light.empty())
-        throw RequestError("bad_request", "nothing to change: give sun, extinction, wind or move");
+    change.edits = readCloudEdits(fields);
+    if (change.light.empty() && change.edits.empty())
+        throw RequestError("bad_request", "nothing to change: give sun, extinction, wind, move or clouds");
     change.cloud = fields.indexOrName("cloud", 65535, longestName);
     if (change.cloud && !change.light.extinction && !change.light.move)
         throw RequestError("bad_request", "a cloud is named with an extinction for it or with a move", "cloud");
+    if (!change.edits.empty() && (change.cloud || !change.light.empty()))
+        throw RequestError("bad_request", "changes of clouds go by themselves, without sun, extinction, wind and move",
+                           "clouds");
     if (change.light.move && !change.cloud)
         throw RequestError("bad_request", "a move needs the cloud that moves", "move");
     return change;

@@ -32,6 +32,7 @@ CostModel::Work CostModel::reduced(Work work, int reduction, std::uint64_t pixel
     if (reduction == 1) return work;
     work.rays = pixels / static_cast<std::uint64_t>(reduction * reduction);
     work.enlarged = pixels;
+    work.lights = work.lightsReduced.value_or(work.lights);
     return work;
 }
 
@@ -39,10 +40,11 @@ void CostModel::drawn(const Work& work, const Spent& spent) {
     const auto each = [](double milliseconds, std::uint64_t count) {
         return std::max(0.0, milliseconds) / static_cast<double>(std::max<std::uint64_t>(1, count));
     };
-    if (work.lights > 0) light_.add(each(spent.light, work.lights));
+    Figures& figures = work.enlarged > 0 ? reduced_ : whole_;
+    if (work.lights > 0) figures.light.add(each(spent.light, work.lights));
     if (work.enlarged > 0) enlarging_.add(each(spent.enlarging, work.enlarged));
     ray_.add(each(spent.rays, work.rays));
-    view_.add(each(spent.total - spent.light - spent.rays - spent.enlarging, work.views));
+    figures.view.add(each(spent.total - spent.light - spent.rays - spent.enlarging, work.views));
 }
 
 void CostModel::encoded(Encoding encoding, double milliseconds, std::uint64_t pixels) {
@@ -51,8 +53,13 @@ void CostModel::encoded(Encoding encoding, double milliseconds, std::uint64_t pi
 }
 
 double CostModel::drawMs(const Work& work) const {
-    return view_.value() * static_cast<double>(work.views) + light_.value() * static_cast<double>(work.lights) +
-           ray_.value() * static_cast<double>(work.rays) + enlarging_.value() * static_cast<double>(work.enlarged);
+    const auto figure = [&](Recent Figures::*part) {
+        const Recent& reduced = reduced_.*part;
+        return work.enlarged > 0 && reduced.isKnown() ? reduced.value() : (whole_.*part).value();
+    };
+    return figure(&Figures::view) * static_cast<double>(work.views) +
+           figure(&Figures::light) * static_cast<double>(work.lights) + ray_.value() * static_cast<double>(work.rays) +
+           enlarging_.value() * static_cast<double>(work.enlarged);
 }
 
 double CostModel::encodeMs(Encoding encoding, std::uint64_t pixels) const {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "service/values/requests.h"
 
@@ -15,9 +16,10 @@ class CostModel {
     /// What a frame has to do.
     struct Work {
         std::uint64_t views = 1;
-        std::uint64_t lights = 0;    ///< views that need light towards an eye of their own
-        std::uint64_t rays = 0;      ///< of all views
-        std::uint64_t enlarged = 0;  ///< pixels of reduced pictures, after they were enlarged
+        std::uint64_t lights = 0;                      ///< views that need light towards an eye of their own
+        std::uint64_t rays = 0;                        ///< of all views
+        std::uint64_t enlarged = 0;                    ///< pixels of reduced pictures, after they were enlarged
+        std::optional<std::uint64_t> lightsReduced{};  ///< where reduced pictures need another number of `lights`
     };
     /// Milliseconds that it took.
     struct Spent {
@@ -61,13 +63,19 @@ class CostModel {
       public:
         void add(double figure);
         double value() const { return median_; }
+        bool isKnown() const { return count_ > 0; }
 
       private:
         std::array<double, 5> last_{};
         std::size_t count_ = 0;  // of all that were added
         double median_ = 0.0;
     };
-    Recent trace_, sun_, view_, light_, ray_, enlarging_;
+    /// Of whole pictures, and of reduced ones, whose light is coarse. Until these are known, of whole ones.
+    struct Figures {
+        Recent view, light;
+    };
+    Recent trace_, sun_, ray_, enlarging_;
+    Figures whole_, reduced_;
     std::array<Recent, encodings> encode_{};
 };
 

@@ -23,14 +23,30 @@ double Adaptation::follow(double metered, Clock::time_point now) {
 }
 
 Tone ExposureDesk::toneOf(const scene::Image& image, const Job& job, const std::vector<ViewResult>& views,
-                          Clock::time_point now) {
+                          bool lightOfNow, Clock::time_point now) {
     std::vector<const LayeredImage*> pictures;
     for (const ViewResult& view : views) pictures.push_back(&view.image);
     Tone tone = scene::toneOf(image, pictures);
-    if (image.exposureMode != scene::ExposureMode::automatic || !job.stream) return tone;
+    if (image.exposureMode != scene::ExposureMode::automatic) return tone;
+    if (!lightOfNow)
+        tone.gain = gainWithout(pictures).value_or(tone.gain);
+    else
+        remember(tone.gain, pictures);
+    if (!job.stream) return tone;
     forgetOld(now);
     tone.gain = gainOfEv100(streams_[{job.client, job.id}].follow(ev100OfGain(tone.gain), now));
     return tone;
+}
+
+/// The gain of pictures whose clouds have another light than what is behind them; nothing where none is known.
+std::optional<double> ExposureDesk::gainWithout(const std::vector<const LayeredImage*>& pictures) const {
+    const std::optional<double> behind = backgroundGain(pictures);
+    return behind ? *behind * cloudsOverSky_ : gain_;
+}
+
+void ExposureDesk::remember(double gain, const std::vector<const LayeredImage*>& pictures) {
+    gain_ = gain;
+    if (const std::optional<double> behind = backgroundGain(pictures)) cloudsOverSky_ = gain / *behind;
 }
 
 void ExposureDesk::forgetOld(Clock::time_point now) {

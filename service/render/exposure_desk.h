@@ -25,15 +25,22 @@ class Adaptation {
 };
 
 /// The tones of pictures that are served. With the exposure mode `auto` each stream adapts over time; a frame by itself
-/// is metered by itself. Not for several threads.
+/// is metered by itself. Where clouds have the light of another sun, what is behind them is metered in their stead, and
+/// they are taken to be as much brighter than that as they were last. Not for several threads.
 class ExposureDesk {
   public:
-    Tone toneOf(const scene::Image& image, const Job& job, const std::vector<ViewResult>& views, Clock::time_point now);
+    /// `lightOfNow`: whether the clouds of the views have the light of now.
+    Tone toneOf(const scene::Image& image, const Job& job, const std::vector<ViewResult>& views, bool lightOfNow,
+                Clock::time_point now);
 
   private:
+    std::optional<double> gainWithout(const std::vector<const LayeredImage*>& pictures) const;
+    void remember(double gain, const std::vector<const LayeredImage*>& pictures);
     void forgetOld(Clock::time_point now);
 
     std::map<std::pair<ClientId, std::uint64_t>, Adaptation> streams_;  ///< by client and stream
+    double cloudsOverSky_ = 1.0;  ///< gain by the clouds over that by what is behind them, when both were of one light
+    std::optional<double> gain_;  ///< the last one
 };
 
 }  // namespace lumulus::service

@@ -61,17 +61,57 @@ void FrameMaker::applyChanges() {
 }
 
 void FrameMaker::apply(const std::vector<PendingChanges::Change>& changes) {
-    for (const auto& [client, slot, light, cloud, toOwn] : changes) {
+    for (const PendingChanges::Change& change : changes) {
+        std::optional<Failure> failure;
         try {
-            const SlotPointer changed = host_.lights.toChange(client, slot, light, cloud);
-            changed->apply(light, cloud);
-            publish(*changed);
+            makeChange(change);
         } catch (const RequestError& e) {
-            log_.event("warning", "change_refused", {{"scene", slot->scene().source}, {"message", e.what()}});
-            const std::lock_guard lock(host_.mutex);
-            host_.lights.noteFailure(client, {e.code, e.what(), e.where});
+            log_.event("warning", "change_refused", {{"scene", change.slot->scene().source}, {"message", e.what()}});
+            failure = Failure{e.code, e.what(), e.where};
         }
+        const std::lock_guard lock(host_.mutex);
+        host_.changes.made(change);
+        if (!change.edits.empty()) host_.scenes.breakPromise(change.client);  // where it was of no use
+        if (change.request)
+            host_.reply(change.client, *change.request, failure ? Reply(*failure) : Reply(LightChanged{}));
+        else if (failure)
+            host_.lights.noteFailure(change.client, *failure);
     }
+}
+
+/// Errors: RequestError.
+void FrameMaker::makeChange(const PendingChanges::Change& change) {
+    if (!change.request) return changeLight(change.client, change.slot, change.light, change.cloud);
+    SlotPointer shown;
+    {
+        const std::lock_guard lock(host_.mutex);
+        shown = host_.scenes.shownTo(change.client);
+    }
+    if (!shown) throw RequestError("no_scene", "the scene is gone: load one");
+    if (change.edits.empty()) {  // of clouds that have changed just before
+        std::optional<std::size_t> cloud;
+        if (change.named) cloud = findCloud(shown->scene(), change.reference);
+        return changeLight(change.client, shown, change.light, cloud);
+    }
+    const EditedClouds edited = editClouds(shown->sceneNow(), change.edits);
+    if (edited.rebuilds) shown = host_.lights.edit(change.client, shown, edited);
+    const scene::Scene now = shown->sceneNow();
+    for (std::size_t i = 0; i < edited.origins.size(); ++i) {
+        LightChange light;
+        if (now.clouds[i].extinction != edited.scene.clouds[i].extinction)
+            light.extinction = edited.scene.clouds[i].extinction;
+        light.move = edited.moves[i];
+        if (!light.empty()) changeLight(change.client, shown, light, i);
+    }
+    publish(*shown);
+}
+
+/// Errors: RequestError.
+void FrameMaker::changeLight(ClientId client, const SlotPointer& slot, const LightChange& light,
+                             std::optional<std::size_t> cloud) {
+    const SlotPointer changed = host_.lights.toChange(client, slot, light, cloud);
+    changed->apply(light, cloud);
+    publish(*changed);
 }
 
 /// Errors: those of the scene.
@@ -108,8 +148,10 @@ bool FrameMaker::bringBack(const SlotPointer& slot, const char* event, const Too
     if (!reverted && !slot->source()) return false;
     log_.event("warning", event, {{"scene", slot->scene().source}, {"message", error.what()}});
     const std::lock_guard lock(host_.mutex);
-    // the first light of its own has nothing traced under the light of before: the scene as it was loaded has
-    if (slot->source() && slot->state().photons.current == 0 && slot->state().photons.generations == 0)
+    // the first light of its own has nothing traced under the light of before: the scene as it was loaded has; other
+    // clouds go with their light
+    const PhotonState photons = slot->state().photons;
+    if (slot->source() && photons.current == 0 && (photons.generations == 0 || !reverted))
         host_.scenes.drop(slot);
     else
         host_.scenes.publish(*slot);
@@ -229,8 +271,8 @@ bool FrameMaker::makeOther(double limit) {
         if (host_.closing || host_.encoding.full()) return false;
         const auto allowed = [&](ClientId client) {
             const SlotPointer shown = host_.scenes.shownTo(client);
-            return shown && shown->canDraw() && host_.scheduler.lastCost(client) <= limit &&
-                   std::ranges::find(waiting_, client) == waiting_.end();
+            return shown && shown->canDraw() && !host_.changes.anyOf(client) &&
+                   host_.scheduler.lastCost(client) <= limit && std::ranges::find(waiting_, client) == waiting_.end();
         };
         const auto revision = [this](ClientId client) { return host_.scenes.revision(client); };
         job = host_.scheduler.takeBeside(Clock::now(), revision, allowed);

@@ -65,6 +65,9 @@ class FrameMaker {
     bool makeOther(double limit);
     void applyBetween();
     void apply(const std::vector<PendingChanges::Change>& changes);
+    void makeChange(const PendingChanges::Change& change);
+    void changeLight(ClientId client, const SlotPointer& slot, const LightChange& light,
+                     std::optional<std::size_t> cloud);
     double untilDue();
     void makeFor(const Job& job, SlotPointer slot, bool closing);
     void makeFrame(Job job, const FrameRequest& frame, SlotPointer slot);

@@ -31,11 +31,15 @@ std::optional<Failure> LightDesk::takeFailure(ClientId client) {
 }
 
 /// Errors: RequestError `busy` where memory runs out.
-SlotPointer LightDesk::make(ClientId client, const SlotPointer& slot) {
+SlotPointer LightDesk::make(ClientId client, const SlotPointer& slot, const EditedClouds* edited) {
     try {
         // until it is there and counted with the scene's: no more than the scene has itself
         const auto room = instruments_.memory.take(MemoryBudget::scenes, slot->heldBytes());
-        if (room) return std::make_shared<SceneSlot>(slot, client);
+        if (room) return std::make_shared<SceneSlot>(slot, client, edited);
+    } catch (const InputError& e) {
+        const std::lock_guard lock(host_.mutex);
+        host_.scenes.breakPromise(client);
+        throw RequestError("too_large", e.what(), "clouds");
     } catch (const std::exception& e) {
         instruments_.log.event("warning", "light_failed", {{"client", client}, {"message", e.what()}});
     }
@@ -52,9 +56,20 @@ SlotPointer LightDesk::toChange(ClientId client, const SlotPointer& slot, const 
         if (SlotPointer own = host_.scenes.ownOf(client, slot)) return own;
         host_.scenes.promiseOwn(client);
     }
-    const SlotPointer own = make(client, slot);
+    return keepMade(client, make(client, slot, nullptr));
+}
+
+SlotPointer LightDesk::edit(ClientId client, const SlotPointer& shown, const EditedClouds& edited) {
+    {
+        const std::lock_guard lock(host_.mutex);
+        host_.scenes.promiseOwn(client);
+    }
+    return keepMade(client, make(client, shown, &edited));
+}
+
+SlotPointer LightDesk::keepMade(ClientId client, const SlotPointer& own) {
     own->onStep([step = host_.step, raw = own.get()] { return step(*raw); });
-    instruments_.log.event("info", "light_made", {{"client", client}, {"scene", slot->scene().source}});
+    instruments_.log.event("info", "light_made", {{"client", client}, {"scene", own->scene().source}});
     const std::lock_guard lock(host_.mutex);
     host_.scenes.keepOwn(own);
     return own;

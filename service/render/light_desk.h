@@ -44,8 +44,13 @@ class LightDesk {
     SlotPointer toChange(ClientId client, const SlotPointer& slot, const LightChange& change,
                          std::optional<std::size_t> cloud);
 
+    /// Gives a client, who sees `shown`, a scene of its own with the clouds of `edited`, those of shown->sceneNow(): it
+    /// sees that from now on. Errors: RequestError `busy`; `too_large` where the photon map has no room.
+    SlotPointer edit(ClientId client, const SlotPointer& shown, const EditedClouds& edited);
+
   private:
-    SlotPointer make(ClientId client, const SlotPointer& slot);
+    SlotPointer keepMade(ClientId client, const SlotPointer& own);
+    SlotPointer make(ClientId client, const SlotPointer& slot, const EditedClouds* edited);
     bool needsOwn(ClientId client, const SlotPointer& slot, const LightChange& change,
                   std::optional<std::size_t> cloud) const;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -18,25 +19,51 @@ class PendingChanges {
         LightChange light;
         std::optional<std::size_t> cloud;  ///< whose extinction changes; none: all
         bool toOwn = false;                ///< the client gets light of its own by it
+        // where single clouds change, or have changed just before, and nothing can be known beforehand:
+        std::vector<CloudEdit> edits{};          ///< of clouds
+        bool named = false;                      ///< whether one cloud is meant by `reference`
+        CloudReference reference{};              ///< whose extinction or place changes
+        std::optional<std::uint64_t> request{};  ///< that is answered when the change is made
     };
 
     void add(Change change) { changes_.push_back(std::move(change)); }
     bool any() const { return !changes_.empty(); }
-    /// All of them, in the order in which they came; they are forgotten.
-    std::vector<Change> takeAll() { return std::exchange(changes_, {}); }
+    /// Whether a client waits for a change: a picture that it asks for afterwards shows it.
+    bool anyOf(ClientId client) const {
+        return std::ranges::any_of(changes_, [client](const Change& change) { return change.client == client; });
+    }
+    /// Whether clouds of a client's scene are to change, or change now: what there will be nobody knows yet.
+    bool editsOf(ClientId client) const {
+        return std::ranges::find(editing_, client) != editing_.end() ||
+               std::ranges::any_of(changes_, [client](const Change& change) {
+                   return change.client == client && !change.edits.empty();
+               });
+    }
+    /// All of them, in the order in which they came; each is made now, and made() is told of it.
+    std::vector<Change> takeAll() {
+        return takeWhere([](const Change&) { return true; });
+    }
     /// Those for which `wanted` returns true; the others stay.
     template <class Condition>
     std::vector<Change> takeWhere(const Condition& wanted) {
         std::vector<Change> taken, left;
         for (Change& change : changes_) (wanted(change) ? taken : left).push_back(std::move(change));
         changes_ = std::move(left);
+        for (const Change& change : taken)
+            if (!change.edits.empty()) editing_.push_back(change.client);
         return taken;
+    }
+    /// A change that was taken is made, or was refused.
+    void made(const Change& change) {
+        const auto found = change.edits.empty() ? editing_.end() : std::ranges::find(editing_, change.client);
+        if (found != editing_.end()) editing_.erase(found);
     }
     /// The light of a scene when its changes are made.
     SceneLight after(SceneLight light, const SlotPointer& slot) const;
 
   private:
     std::vector<Change> changes_;
+    std::vector<ClientId> editing_;  ///< a client for each change of clouds that was taken and is not made yet
 };
 
 }  // namespace lumulus::service

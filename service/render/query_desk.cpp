@@ -51,7 +51,7 @@ QueryAnswer answerTo(const QueryRequest& request, const query::Media& media, con
         for (std::size_t i = 0; i < n.size(); i += 3) points.emplace_back(n[i], n[i + 1], n[i + 2]);
         return passagesOf(request.product, query::towardsSun(media, points, directionTo, check));
     }
-    const std::vector<double>& r = request.rectangle;
+    const std::vector<double>& r = request.rectangle;  // a ground shadow: ambient light is the AmbientDesk's
     const double y = request.y.value_or(media.ground.value_or(0.0));
     return shadowOf(
         query::groundShadow(media, {r[0], r[1], r[2], r[3], y, request.width, request.height}, directionTo, check));

@@ -15,6 +15,17 @@ namespace {
 
 const Failure shuttingDown{"shutting_down", "the service is shutting down", {}};
 
+/// A client's first picture is charged beforehand, by its pixels, so that those which come within others and before
+/// them are small. Where the size is the scene's, nothing is foreseen.
+void foresee(Scheduler& scheduler, ClientId client, const FrameRequest& frame) {
+    constexpr double perPixel = 1e-4;  // milliseconds
+    if (scheduler.lastCost(client) > 0.0) return;
+    double pixels = 0.0;
+    for (const ViewRequest& view : frame.views)
+        pixels += static_cast<double>(view.width.value_or(0)) * view.height.value_or(0);
+    scheduler.charge(client, perPixel * pixels);
+}
+
 }  // namespace
 
 RenderService::RenderService(const RenderConfig& config, Instruments& instruments, Outlets outlets)
@@ -25,6 +36,7 @@ RenderService::RenderService(const RenderConfig& config, Instruments& instrument
       scenes_(config.limits.scenes, config.limits.ownLights),
       encoding_(outlets_.mostEncoding),
       queries_(mutex_, outlets_.reply),
+      ambient_(mutex_, scenes_, outlets_.reply),
       lights_(config, instruments, {mutex_, scenes_, [this](const SceneSlot& slot) { return step(slot); }}),
       maker_(instruments, {mutex_, scheduler_, scenes_, changes_, encoding_, desk_, lights_, closing_, outlets_.reply,
                            outlets_.encode}),
@@ -77,6 +89,7 @@ void RenderService::removeClient(ClientId client) {
         const std::lock_guard lock(mutex_);
         scheduler_.removeClient(client);
         queries_.removeClient(client);
+        ambient_.removeClient(client);
         scenes_.removeClient(client);
         desk_.removeClient(client);
         lights_.removeClient(client);
@@ -98,7 +111,8 @@ void RenderService::answer(ClientId client, std::uint64_t id, const StopStream& 
 }
 
 void RenderService::answer(ClientId client, std::uint64_t id, const Cancel& cancel) {
-    const bool found = scheduler_.cancel(client, cancel.request) || queries_.cancel(client, cancel.request);
+    const bool found = scheduler_.cancel(client, cancel.request) || queries_.cancel(client, cancel.request) ||
+                       ambient_.cancel(client, cancel.request);
     if (found) outlets_.reply(client, cancel.request, Failure{"cancelled", "cancelled on request", {}});
     outlets_.reply(client, id, FrameCancelled{found});
 }
@@ -108,10 +122,19 @@ void RenderService::answer(ClientId client, std::uint64_t id, Change change) {
     if (!slot && desk_.defaultPending())
         throw RequestError("busy", "the default scene is being loaded: try again later");
     if (!slot) throw RequestError("no_scene", "load a scene first");
+    if (!change.edits.empty() || changes_.editsOf(client)) {
+        if (!change.edits.empty()) scenes_.promiseOwn(client);
+        PendingChanges::Change later{client, slot, std::move(change.light), {}, true, std::move(change.edits)};
+        later.named = change.cloud.has_value();
+        later.reference = change.cloud.value_or(CloudReference{});
+        later.request = id;
+        changes_.add(std::move(later));
+        return;
+    }
     std::optional<std::size_t> cloud;
-    if (change.cloud) cloud = slot->findCloud(*change.cloud);
+    if (change.cloud) cloud = findCloud(slot->scene(), *change.cloud);
     const bool toOwn = lights_.promise(client, slot, change.light, cloud);
-    changes_.add({client, slot, std::move(change.light), cloud, toOwn});
+    changes_.add({client, slot, std::move(change.light), cloud, toOwn, {}});
     outlets_.reply(client, id, LightChanged{});
 }
 
@@ -119,6 +142,7 @@ void RenderService::answer(QueryJob query) {
     if (!scenes_.shownTo(query.client) && desk_.defaultPending())
         throw RequestError("busy", "the default scene is being loaded: try again later");
     if (!scenes_.shownTo(query.client)) throw RequestError("no_scene", "load a scene first");
+    if (query.request.product == QueryProduct::ambient) return ambient_.submit(std::move(query));
     queries_.submit(std::move(query));
 }
 
@@ -161,11 +185,13 @@ void RenderService::submit(ClientId client, std::uint64_t id, RenderRequest requ
             desk_.submit({client, id, std::move(*load), held});
         } else if (auto* frame = std::get_if<FrameRequest>(&request)) {
             lights_.promise(client, scenes_.shownTo(client), frame->light, std::nullopt);
+            foresee(scheduler_, client, *frame);
             submitFrame({client, id, workOf(std::move(*frame)), held, now});
         } else if (auto* composite = std::get_if<Composite>(&request)) {
             submitFrame({client, id, workOf(std::move(*composite)), held, now});
         } else if (auto* start = std::get_if<StartStream>(&request)) {
             lights_.promise(client, scenes_.shownTo(client), start->frame.light, std::nullopt);
+            foresee(scheduler_, client, start->frame);
             scheduler_.startStream(client, id, std::move(*start), now);
         } else if (const auto* stop = std::get_if<StopStream>(&request)) {
             answer(client, id, *stop);
@@ -227,13 +253,14 @@ void RenderService::shutDown() {
     for (const Job& job : failed) fails(job.client, job.id);
     for (const auto& job : loads) fails(job.client, job.id);
     for (const QueryJob& job : queries_.takeAll()) fails(job.client, job.id);
+    for (const QueryJob& job : ambient_.takeAll()) fails(job.client, job.id);
 }
 
 void RenderService::renderLoop() {
     while (true) {
         std::optional<Job> job;
         SlotPointer toRefine;
-        bool starving = false;
+        bool starving = false, ambient = false;
         heartbeat_.step();
         maker_.applyChanges();
         handQueries();
@@ -255,8 +282,9 @@ void RenderService::renderLoop() {
             const bool full = encoding_.full();
             if (encoding_.beginsToWait(scheduler_.hasQueued() || (due && *due <= now)))
                 metrics_.add(Metrics::encoderWaits);
-            if (!starving && !full) job = scheduler_.take(now, revision);
-            if (!job && !toRefine) {
+            if (!starving && !full && !ambient_.presses(now)) job = scheduler_.take(now, revision);
+            ambient = !job && !starving && ambient_.any();
+            if (!job && !toRefine && !ambient) {
                 heartbeat_.rest();
                 if (due && !full)
                     wake_.wait_until(lock, *due);
@@ -268,6 +296,8 @@ void RenderService::renderLoop() {
         }
         if (job)
             maker_.make(std::move(*job));
+        else if (ambient)
+            ambient_.step();
         else
             maker_.refine(toRefine, starving || !toRefine->wantsSun());
     }

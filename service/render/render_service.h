@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "service/render/ambient_desk.h"
 #include "service/render/encoding_desk.h"
 #include "service/render/frame_maker.h"
 #include "service/render/frame_task.h"
@@ -99,6 +100,7 @@ class RenderService {
     PendingChanges changes_;
     EncodingDesk encoding_;
     QueryDesk queries_;
+    AmbientDesk ambient_;
     bool rendering_ = false;  // the render thread is at a picture
     bool closing_ = false, stopping_ = false;
 

@@ -39,6 +39,7 @@ float between(float first, float second, float share) {
 View reducedView(const View& view, int reduction) {
     View reduced = view;
     reduced.mostRays = 1;
+    reduced.coarse = true;
     reduced.image.width = (view.image.width + reduction - 1) / reduction;
     reduced.image.height = (view.image.height + reduction - 1) / reduction;
     if (view.tile) {

@@ -5,7 +5,7 @@
 
 namespace lumulus::service {
 
-/// The view with its sides divided by `reduction` and one ray a pixel. Its tile holds that of the view.
+/// The view with its sides divided by `reduction`, one ray a pixel and coarse light. Its tile holds that of the view.
 View reducedView(const View& view, int reduction);
 
 /// Enlarges a picture of reducedView(view) to the pixels of `view`, with bilinear interpolation. Depths, which must not

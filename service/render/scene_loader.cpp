@@ -175,6 +175,7 @@ SlotPointer SceneLoader::slotFor(Lane& lane, const LoadQueue::Entry& entry) {
     };
     auto slot = std::make_shared<SceneSlot>(found.key, found.scene, config_, abandoned,
                                             [&](std::string_view step) { noteStep(lane, step); });
+    abandoned();  // the last step may not have asked: nobody keeps a scene that nobody waits for
     if (job.load.isPrivate) slot->giveTo(job.client);
     host_.keep(slot);
     instruments_.metrics.add(Metrics::scenesLoaded);

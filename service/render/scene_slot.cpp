@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "render/ambient.h"
 #include "scene/tone.h"
 #include "service/render/client_picture.h"
 #include "service/render/describe_scene.h"
@@ -33,6 +34,7 @@ SceneSlot::SceneSlot(std::string slotKey, const scene::Scene& scene, const Rende
     RendererOptions loading = options();
     loading.device = config.device;
     renderer_ = std::make_unique<Renderer>(scene_, loading);
+    scene_.sun = renderer_->sun();  // a map has one
     light_.emplace(scene_, *renderer_);
     learnCosts();
     probeNoise();
@@ -43,20 +45,31 @@ SceneSlot::SceneSlot(std::string slotKey, const scene::Scene& scene, const Rende
     description_ = describeScene(scene_, *renderer_, light_->now());
 }
 
-SceneSlot::SceneSlot(std::shared_ptr<SceneSlot> shared, ClientId owner)
-    : key_(fmt::format("{}, light of client {}", shared->key_, owner)),
+SceneSlot::SceneSlot(const std::shared_ptr<SceneSlot>& shown, ClientId owner, const EditedClouds* edited)
+    : source_(shown->source_ ? shown->source_ : shown),
+      key_(fmt::format("{}, light of client {}", source_->key_, owner)),
       owner_(owner),
-      source_(std::move(shared)),
-      scene_(source_->scene_),
+      scene_(edited != nullptr ? edited->scene : source_->scene_),
       limits_(source_->limits_),
-      renderer_(std::make_unique<Renderer>(scene_, *source_->renderer_, options())),
+      renderer_(edited != nullptr ? std::make_unique<Renderer>(scene_, *shown->renderer_, edited->origins, options())
+                                  : std::make_unique<Renderer>(scene_, *source_->renderer_, options())),
       description_(source_->description_),
       costs_(source_->costs_),
       noise_(source_->noise_),
+      revision_(shown->revision_ + 1),
       lastTraced_(Clock::now()) {
     light_.emplace(scene_, *renderer_);
     description_.light = light_->now();
+    if (edited != nullptr && shown->source_) shown->dropsGeneration_ = true;  // nobody will see it
+    if (edited != nullptr) tracedAt_ = shown->tracedAt_;
     source_->countMemory();
+}
+
+scene::Scene SceneSlot::sceneNow() const {
+    scene::Scene scene = scene_;
+    scene.sun = renderer_->sun();
+    for (std::size_t i = 0; i < scene.clouds.size(); ++i) scene.clouds[i].extinction = renderer_->extinction(i);
+    return scene;
 }
 
 RendererOptions SceneSlot::options() {
@@ -73,6 +86,7 @@ RendererOptions SceneSlot::options() {
 SceneSlot::Guarded::Guarded(SceneSlot& slot, const std::atomic<bool>* cancelled)
     : slot_(slot), cancelledBefore_(slot.cancelled_), deadlineBefore_(slot.deadline_) {
     slot_.cancelled_ = cancelled;
+    slot_.drawer_ = std::this_thread::get_id();
     slot_.deadline_ = Clock::now() + inSeconds(slot_.limits_.generationSeconds);
 }
 
@@ -84,7 +98,7 @@ SceneSlot::Guarded::~Guarded() {
 void SceneSlot::guard() {
     stopIfInterrupted();
     if (abandoned_) abandoned_();
-    if (step_) {
+    if (step_ && std::this_thread::get_id() == drawer_) {
         const auto start = Clock::now();
         const auto pausedBefore = paused_;
         const double time = time_;
@@ -118,23 +132,9 @@ std::uint64_t SceneSlot::frameBytes(const FrameRequest& frame) const {
     return pictureBytes(pixelsOf(viewsOf(frame.views)));
 }
 
-PhotonState SceneSlot::photons() const {
-    const Generations ring = renderer_->generations();
-    return {ring.first, ring.count, ring.current, ring.photonsEach};
-}
-
 SceneState SceneSlot::state() const {
     return {scene_.source,      photons(), renderer_->generationsWanted(), costs_.traceMs(), light_->now(),
             owner_.has_value(), 0};
-}
-
-std::size_t SceneSlot::findCloud(const CloudReference& cloud) const {
-    const auto* const index = std::get_if<std::uint32_t>(&cloud);
-    if (index != nullptr && *index < scene_.clouds.size()) return *index;
-    for (std::size_t i = 0; index == nullptr && i < scene_.clouds.size(); ++i)
-        if (scene::nameOf(scene_, i) == std::get<std::string>(cloud)) return i;
-    const std::string wanted = index != nullptr ? std::to_string(*index) : "\"" + std::get<std::string>(cloud) + "\"";
-    throw RequestError("not_found", "the scene has no cloud " + wanted, "cloud");
 }
 
 void SceneSlot::apply(const LightChange& change, std::optional<std::size_t> cloud) {
@@ -143,26 +143,6 @@ void SceneSlot::apply(const LightChange& change, std::optional<std::size_t> clou
     if (change.extinction) forgetViewed();
     // a generation of light that may be much work, and that nobody will see
     if (change.extinction && tracing_ > 0 && !tracesQuickly()) dropsGeneration_ = true;
-}
-
-bool SceneSlot::revert() {
-    const bool reverted = light_->revert();
-    if (reverted) ++revision_;
-    dropsGeneration_ = dropsGeneration_ || (reverted && tracing_ > 0);
-    return reverted;
-}
-
-void SceneSlot::forgetViewed() {
-    for (Viewer& each : viewers_) each.viewed.forget();
-}
-
-bool SceneSlot::wantsGeneration() const {
-    return renderer_->generations().current < renderer_->generationsWanted();
-}
-
-bool SceneSlot::tracesQuickly() const {
-    constexpr double longest = 150.0;  // ms
-    return costs_.traceMs() > 0.0 && costs_.traceMs() <= longest && !light_->costUnknown();
 }
 
 void SceneSlot::traceGeneration() {
@@ -240,19 +220,22 @@ View SceneSlot::smallView() const {
 void SceneSlot::probeNoise() {
     const Generations ring = renderer_->generations();
     if (!noise_.wants(ring.count) || ring.current < ring.count || renderer_->sunReduction() != 1) return;
-    Viewer& looking = viewer();
+    Looking& looking = viewer().whole;
     const Counted drawing(drawing_);
     noise_.add(renderer_->draw(smallView(), looking.state), ring.count, ring.photons());
     looking.viewed.drawn({smallView()}, renderer_->bounds(), 0.0);
 }
 
-/// Draws a small picture twice: the first one compiles shaders, the second one shows what pictures cost.
+/// Draws a small picture twice, whole and reduced: the first one compiles shaders, the second one shows what pictures
+/// cost.
 void SceneSlot::learnCosts() {
     const std::vector<View> views{smallView()};
-    FrameResult first, second;
-    drawViews(viewer(), views, 1, first);
-    const double enlarging = drawViews(viewer(), views, 1, second);
-    noteDrawn(second, workFor(views, 0.0), enlarging);
+    for (const int reduction : {1, 2}) {
+        FrameResult first, second;
+        drawViews(viewer(), views, reduction, first);
+        const double enlarging = drawViews(viewer(), views, reduction, second);
+        noteDrawn(second, CostModel::reduced(workFor(views, 0.0), reduction, pixelsOf(views)), enlarging);
+    }
 }
 
 std::vector<View> SceneSlot::viewsOf(const std::vector<ViewRequest>& requests) const {
@@ -261,7 +244,10 @@ std::vector<View> SceneSlot::viewsOf(const std::vector<ViewRequest>& requests) c
 
 /// What drawing the views whole has to do. `time` [s] of the wind.
 CostModel::Work SceneSlot::workFor(const std::vector<View>& views, double time) const {
-    CostModel::Work work{views.size(), viewer().viewed.missing(views, renderer_->bounds(), time), 0, 0};
+    const auto missing = [&](const Looking& looking) {
+        return looking.viewed.missing(views, renderer_->bounds(), time);
+    };
+    CostModel::Work work{views.size(), missing(viewer().whole), 0, 0, missing(viewer().reduced)};
     for (const View& view : views) {
         const auto across = static_cast<std::uint64_t>(renderer_->raysAcross(view));
         work.rays += pixelsOf({view}) * across * across;
@@ -296,7 +282,7 @@ double SceneSlot::drawViews(Viewer& looking, const std::vector<View>& views, int
         const auto start = Clock::now();
         const auto pausedBefore = paused_;
         const View small = reduction > 1 ? reducedView(view, reduction) : view;
-        ViewResult drawn{renderer_->draw(small, looking.state), 0, 0};
+        ViewResult drawn{renderer_->draw(small, looking.of(reduction).state), 0, 0};
         drawn.drawnWidth = drawn.image.width;
         drawn.drawnHeight = drawn.image.height;
         const auto whole = Clock::now();
@@ -366,16 +352,27 @@ FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {
         const Counted drawing(drawing_);
         enlarging = drawViews(looking, views, result.reduction, result);
     }
-    looking.viewed.drawn(views, renderer_->bounds(), frame.time);
+    looking.of(result.reduction).viewed.drawn(views, renderer_->bounds(), frame.time);
     countMemory();
     noteDrawn(result, CostModel::reduced(work, result.reduction, pixels), enlarging);
 
     std::ranges::copy(tracePasses(), std::back_inserter(result.passes));
     result.shown = shown();
-    result.tone = exposures_.toneOf(scene_.image, job, result.views, Clock::now());
+    result.tone = exposures_.toneOf(scene_.image, job, result.views, hasLightOfNow(), Clock::now());
     result.background = scene_.image.background;
     result.sunReduction = std::max(1, renderer_->sunReduction());
     return result;
+}
+
+std::vector<glm::dvec3> SceneSlot::ambientAt(const glm::dvec3& point, const std::atomic<bool>* cancelled) {
+    if (scene_.ground && point.y < scene_.ground->height)
+        throw InputError("the point is below the ground", "y", "raise it");
+    const Guarded guarded(*this, cancelled);
+    const Counted drawing(drawing_);
+    ViewState looking;
+    std::vector<glm::dvec3> values{sunIrradianceAt(*renderer_, renderer_->media(), point, [this] { guard(); })};
+    std::ranges::copy(lumulus::ambientAt(*renderer_, looking, point).coefficients, std::back_inserter(values));
+    return values;
 }
 
 CompositeResult SceneSlot::composite(const Job& job, const Composite& composite) {

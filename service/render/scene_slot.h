@@ -10,10 +10,12 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "render/renderer.h"
 #include "scene/scene.h"
+#include "service/render/cloud_edits.h"
 #include "service/render/cost_model.h"
 #include "service/render/exposure_desk.h"
 #include "service/render/light_state.h"
@@ -45,7 +47,7 @@ class TooSlow : public std::runtime_error {
 
 /// A scene that is served: its renderer, and what its work costs. The renderer owns light, extinction and wind; the
 /// scene as it was loaded never changes. Not for several threads, but for key(), owner(), source(),
-/// scene(), description() and findCloud().
+/// scene() and description().
 class SceneSlot {
   public:
     /// Loads and prepares the scene, and draws a small picture, so that shaders are compiled and costs known.
@@ -55,8 +57,10 @@ class SceneSlot {
               const std::function<void()>& abandoned, const std::function<void(std::string_view)>& begins = {});
 
     /// The scene of another slot with light of its own for a client: as the scene has it, and no photons yet. Density,
-    /// device and programs are shared, so that nothing is loaded and one thread has to use both. Errors: Error.
-    SceneSlot(std::shared_ptr<SceneSlot> shared, ClientId owner);
+    /// device and programs are shared, so that nothing is loaded and one thread has to use both. With clouds that are
+    /// `edited`, those of sceneNow() of `shown`, it goes on with light and photons of `shown`. Errors: Error,
+    /// InputError.
+    SceneSlot(const std::shared_ptr<SceneSlot>& shown, ClientId owner, const EditedClouds* edited = nullptr);
 
     const std::string& key() const { return key_; }
     /// The client to whom the light belongs; none where clients share it.
@@ -70,23 +74,31 @@ class SceneSlot {
     /// The scene as it was when it was loaded.
     const SceneDescription& description() const { return description_; }
     SceneState state() const;
+    /// The scene under the light of now.
+    scene::Scene sceneNow() const;
 
-    /// Index of a cloud. Errors: RequestError `not_found` where the scene has no such cloud.
-    std::size_t findCloud(const CloudReference& cloud) const;
     /// `cloud`: whose extinction changes; all without it. Errors: RequestError where the scene cannot have such a
     /// light.
     void apply(const LightChange& change, std::optional<std::size_t> cloud = {});
 
     /// Brings back the light of before, where no generation was finished since it changed. Returns whether it did.
-    bool revert();
+    bool revert() {
+        const bool reverted = light_->revert();
+        if (reverted) ++revision_;
+        dropsGeneration_ = dropsGeneration_ || (reverted && tracing_ > 0);
+        return reverted;
+    }
 
     /// Whether the ring lacks generations under the light of now.
-    bool wantsGeneration() const;
+    bool wantsGeneration() const { return renderer_->generations().current < renderer_->generationsWanted(); }
     /// Traces a generation, unless the light changes so that it is of no use. Errors: TooSlow.
     void traceGeneration();
     double traceMs() const { return costs_.traceMs(); }
     /// Whether a generation is known to be short enough to trace it between the steps of other work.
-    bool tracesQuickly() const;
+    bool tracesQuickly() const {
+        constexpr double longest = 150.0;  // ms
+        return costs_.traceMs() > 0.0 && costs_.traceMs() <= longest && !light_->costUnknown();
+    }
     /// Seconds of the steps of a generation, if pictures are due before it ends. They can be made between two.
     static constexpr double shortRound = 0.004, longRound = 0.02;
     /// Whether work on the scene is at a step at which a picture of it can be made: also within one other, unless a
@@ -112,6 +124,9 @@ class SceneSlot {
     FrameResult draw(const Job& job, const FrameRequest& frame);
     /// Draws the client's picture through the fog of the scene. Errors: Cancelled, RequestError, TooSlow.
     CompositeResult composite(const Job& job, const Composite& composite);
+    /// Irradiance of a plane that faces the sun, then the coefficients of ambient light (AmbientLight) at a point [m].
+    /// Ends where it is cancelled. Errors: Cancelled, InputError, TooSlow.
+    std::vector<glm::dvec3> ambientAt(const glm::dvec3& point, const std::atomic<bool>* cancelled);
     /// Takes what encoding a picture of this scene cost.
     void noteEncoded(Encoding encoding, double milliseconds, std::uint64_t pixels) {
         costs_.encoded(encoding, milliseconds, pixels);
@@ -127,7 +142,7 @@ class SceneSlot {
     /// The same of a picture of so many pixels.
     static std::uint64_t pictureBytes(std::uint64_t pixels);
     /// `step` is called between the steps of all work from now on, and returns the seconds that the next one should
-    /// take. Before the scene is held.
+    /// take: on the thread that draws, never on those that help it. Before the scene is held.
     void onStep(std::function<double()> step) { step_ = std::move(step); }
 
   private:
@@ -156,13 +171,21 @@ class SceneSlot {
         std::size_t& count_;
     };
     /// What looks at the scene, at all views one after the other. It is gone before the renderer.
-    struct Viewer {
+    struct Looking {
         ViewState state;
         ViewedLight viewed;
     };
+    /// Who looks at whole pictures and at reduced ones, whose light is coarse.
+    struct Viewer {
+        Looking whole, reduced;
+        Looking& of(int reduction) { return reduction > 1 ? reduced : whole; }
+    };
     Viewer& viewer() { return viewers_[std::min(drawing_, viewers_.size() - 1)]; }
     const Viewer& viewer() const { return viewers_[std::min(drawing_, viewers_.size() - 1)]; }
-    void forgetViewed();
+    void forgetViewed() {
+        for (Viewer& each : viewers_)
+            for (Looking* looking : {&each.whole, &each.reduced}) looking->viewed.forget();
+    }
 
     RendererOptions options();
     double workedSince(Clock::time_point start, Clock::duration pausedBefore) const;
@@ -178,16 +201,22 @@ class SceneSlot {
     double drawViews(Viewer& viewer, const std::vector<View>& views, int reduction, FrameResult& result);
     void noteDrawn(const FrameResult& result, CostModel::Work work, double enlarging);
     std::vector<PassTime> tracePasses();
-    PhotonState photons() const;
+    PhotonState photons() const {
+        const Generations ring = renderer_->generations();
+        return {ring.first, ring.count, ring.current, ring.photonsEach};
+    }
+    /// Whether most photons have the light of now.
+    bool hasLightOfNow() const { return 2 * photons().current >= photons().generations; }
     SceneShown shown() const;
 
+    std::shared_ptr<SceneSlot> source_;
     std::string key_;
     std::optional<ClientId> owner_;
-    std::shared_ptr<SceneSlot> source_;
-    const scene::Scene scene_;
+    scene::Scene scene_;  ///< the sun is the map's where it has one; never changes after the load
     const RenderLimits& limits_;
     std::function<void()> abandoned_;
     std::function<double()> step_;
+    std::thread::id drawer_;                        ///< the thread that does the work of jobs
     std::function<void(std::string_view)> begins_;  // a step of the load
     const std::atomic<bool>* cancelled_ = nullptr;  // of the job that is drawn
     Clock::time_point deadline_ = Clock::time_point::max();

@@ -45,7 +45,9 @@ void SceneStore::keepOwn(const SlotPointer& slot) {
         retired_.push_back(slot);  // the client has gone, or looks at another scene
         return;
     }
-    own_[*slot->owner()] = slot;
+    SlotPointer& own = own_[*slot->owner()];
+    if (own) retired_.push_back(own);  // of other clouds
+    own = slot;
     publish(*slot);
 }
 
@@ -69,11 +71,10 @@ bool SceneStore::seen(const SlotPointer& slot) const {
     return slot == default_ || std::ranges::any_of(shownTo_, [&](const auto& entry) { return entry.second == slot; });
 }
 
-/// Whether somebody sees the scene under the light that it was loaded with, or will when it connects.
+/// Whether somebody sees the scene under the light that it was loaded with.
 bool SceneStore::watched(const SlotPointer& slot) const {
-    return slot == default_ || std::ranges::any_of(shownTo_, [&](const auto& entry) {
-               return entry.second == slot && !ownOf(entry.first, slot);
-           });
+    return std::ranges::any_of(shownTo_,
+                               [&](const auto& entry) { return entry.second == slot && !ownOf(entry.first, slot); });
 }
 
 std::vector<ClientId> SceneStore::clientsOf(const SlotPointer& slot) const {
@@ -166,8 +167,10 @@ SlotPointer SceneStore::toRefine(Clock::time_point now, std::optional<Clock::tim
         if ((slot->wantsGeneration() || slot->wantsSun()) && (!best || slot->lastTraced() < best->lastTraced()))
             best = slot;
     };
-    for (const SlotPointer& slot : slots_)
-        if (watched(slot)) consider(slot);
+    for (const SlotPointer& slot : slots_) {
+        const bool forNewcomers = slot == default_ && !due;  // who streams does not wait for them
+        if (watched(slot) || forNewcomers) consider(slot);
+    }
     for (const auto& [client, slot] : own_)
         if (slot) consider(slot);
     if (!best || !due || starves(*best, now)) return best;

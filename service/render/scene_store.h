@@ -34,7 +34,9 @@ class SceneStore {
     /// Sets a light aside for the client. Errors: RequestError `busy` where there are too many.
     void promiseOwn(ClientId client);
     /// Forgets a light that was promised and cannot be made.
-    void breakPromise(ClientId client) { retireOwn(client); }
+    void breakPromise(ClientId client) {
+        if (const auto it = own_.find(client); it != own_.end() && !it->second) own_.erase(it);
+    }
     /// The client's own light of a scene; null where it has none.
     SlotPointer ownOf(ClientId client, const SlotPointer& source) const;
     /// Takes the light that was promised to its owner, who sees it from now on.
@@ -71,8 +73,8 @@ class SceneStore {
     std::optional<SceneState> stateOf(const SceneSlot& slot) const;
 
     /// Of the scenes that are seen and can be refined, the one whose photons have waited longest, if there is time for
-    /// a step before a picture is `due`, or if it starves. Null where there is none. Only the thread that may use the
-    /// scenes calls this.
+    /// a step before a picture is `due`, or if it starves. The default scene, which newcomers will see, is one of them
+    /// where no picture is due. Null where there is none. Only the thread that may use the scenes calls this.
     SlotPointer toRefine(Clock::time_point now, std::optional<Clock::time_point> due) const;
     /// Whether a scene has to get a generation, however busy streams keep the service.
     static bool starves(const SceneSlot& slot, Clock::time_point now);

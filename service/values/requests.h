@@ -124,12 +124,35 @@ struct Cancel {
     std::uint64_t request = 0;
 };
 
+/// A change of one cloud of a scene.
+struct CloudEdit {
+    enum class Kind {
+        add,     ///< another cloud of the density of `cloud`
+        remove,  ///< the cloud goes
+        alter,   ///< the cloud becomes another
+    };
+    Kind kind = Kind::alter;
+    CloudReference cloud;
+    std::string name;  ///< of the cloud that is added
+    // in what it differs:
+    std::optional<glm::dvec3> move;    ///< metres from where the scene has `cloud`
+    std::optional<double> extinction;  ///< 1/m where the density is 1
+    std::optional<glm::dvec3> albedo;  ///< of each colour channel
+    std::optional<double> asymmetry;   ///< g of a phase function of Henyey and Greenstein
+    double yaw = 0.0;                  ///< of one that is added, in degrees, anticlockwise as seen from above
+    double scale = 1.0;                ///< of one that is added
+};
+
 struct Change {
     LightChange light;
     std::optional<CloudReference> cloud;  ///< whose extinction changes; absent: all clouds
+    std::vector<CloudEdit> edits;         ///< one after the other; all of them or none
 };
 
-enum class QueryProduct { segments, sun, groundShadow };
+enum class QueryProduct { segments, sun, groundShadow, ambient };
+
+/// Points of which one query may ask for the ambient light: each costs a small picture.
+inline constexpr std::size_t mostAmbientPoints = 64;
 
 /// Ways that one query may ask about.
 inline constexpr std::size_t mostQueryWays = 262144;

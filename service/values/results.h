@@ -130,7 +130,7 @@ struct LightChanged {};
 struct QueryAnswer {
     QueryProduct product = QueryProduct::segments;
     int width = 0, height = 1;  ///< passages are one row
-    int channels = 6;           ///< transmittance R, G, B; of passages also optical depth R, G, B
+    int channels = 6;  ///< transmittance R, G, B; of passages also optical depth R, G, B; of ambient light see protocol
     std::vector<float> values;
 };
 

@@ -90,7 +90,7 @@ export class Viewing {
     sceneRequest() {
         const {scene, vdb, quality, own, g, fog} = this.wishes;
         const set = [...g].map(([cloud, value]) => `cloud.${cloud}.phase.g=${value}`);
-        if (fog !== null) set.push(`fog.media=[{kind="homogeneous", visibility=${fog}}]`);
+        if (fog !== null) set.push(`fog.media=[{visibility=${fog}, bottom=-1000, top=1000}]`);
         const name = scene || (vdb ? "" : this.welcome.scene);
         const chosen = quality ?? this.welcome.quality;
         return {

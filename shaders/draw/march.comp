@@ -64,7 +64,9 @@ void enterCell(inout March walk, InstanceParams instance, Line line, float end, 
     const float span = min(walk.leave, end) - walk.begin;
     const float growth = min(exp(GROWTH * leastExtinctionScale(instance) * depth), MOST_GROWTH);
     const float thickest = majorant * instance.extinction / STEP_THICKNESS;
-    const float steps = ceil(span * max(1.0 / instance.voxelLength, thickest) / growth);
+    // voxels a metre; of flat ones by the direction
+    const float finest = instance.voxelLength > 0.0 ? 1.0 / instance.voxelLength : length(line.velocity);
+    const float steps = ceil(span * max(finest, thickest) / growth);
     walk.count = majorant > 0.0 && span > 0.0 ? clamp(steps, 1.0, 512.0) : 0.0;
     walk.step = span / max(walk.count, 1.0);
     walk.done = 0.0;
@@ -125,13 +127,19 @@ RayLight march(InstanceRange range, vec3 origin, vec3 direction, float offset) {
     float begin = 0.0, end = segmentEnd(range, origin, direction, begin);
     while (end > begin && !isOpaque(ray) && (!GROUND || begin < limit)) {
         if (GROUND) end = min(end, limit);
-        for (int entry = range.first; entry < range.last; ++entry) {
-            const int number = listedInstance(entry);
-            float voxelLength;
-            const vec2 inside = insideOf(number, origin, direction, voxelLength);
-            if (inside.x >= inside.y || inside.x > begin || inside.y <= begin) continue;
-            const InstanceParams instance = instanceAt(number);
-            marchThrough(instance, direction, lineIn(instance, origin, direction), vec2(begin, end), offset, ray);
+        // lanes look for the next instance that they meet, and go through it together
+        int entry = range.first;
+        while (entry < range.last) {
+            int number = -1;
+            while (number < 0 && entry < range.last) {
+                const int listed = listedInstance(entry++);
+                float voxelLength;
+                const vec2 inside = insideOf(listed, origin, direction, voxelLength);
+                if (inside.x < inside.y && inside.x <= begin && inside.y > begin) number = listed;
+            }
+            const InstanceParams instance = instanceAt(max(number, 0));
+            const float until = number < 0 ? begin : end;
+            marchThrough(instance, direction, lineIn(instance, origin, direction), vec2(begin, until), offset, ray);
         }
         begin = end;
         end = segmentEnd(range, origin, direction, begin);

@@ -3,31 +3,10 @@
 #ifndef LUMULUS_LIB_GROUND
 #define LUMULUS_LIB_GROUND
 
-#include "shared/ground.h"
+#include "lib/environment_sample.glsl"
+#include "lib/ground_light.glsl"
 #include "lib/photon.glsl"
 #include "lib/traversal.glsl"
-
-layout(binding = 20, scalar) readonly buffer GroundLight { GroundParams ground; vec3 groundRadiance[]; };
-
-/// Of a place of the walk [cells]: metres from the corner of the grids on the ground along x and z, and above the ground.
-vec3 overGround(vec3 place) { return ground.cellsToWorld * place + ground.origin; }
-
-/// The cell of a grid over the ground in which a place is; −1 where none is.
-int groundCell(vec2 place, ivec2 cells) {
-    const vec2 cell = floor(place / ground.extent * vec2(cells));
-    if (any(lessThan(cell, vec2(0.0))) || any(greaterThanEqual(cell, vec2(cells)))) return -1;
-    return int(cell.y) * cells.x + int(cell.x);
-}
-
-/// Light that comes from a direction to a place of the walk, over what photons of the sky stand for: of the ground without the
-/// light of clouds, or of the sky.
-vec3 skyOrGround(vec3 place, vec3 direction) {
-    if (direction.y <= 0.0) return ground.sky;
-    const vec3 above = overGround(place);
-    const vec2 hit = above.xz - direction.xz * (above.y / direction.y);
-    const int cell = groundCell(hit, ground.cells);
-    return cell < 0 ? ground.open : groundRadiance[cell];
-}
 
 /// Counts light that falls on the ground.
 void countOnGround(vec2 place, vec3 power) {
@@ -38,11 +17,38 @@ void countOnGround(vec2 place, vec3 power) {
                   int64_t(roundEven(COEFFICIENT_SCALE * power[channel])));
 }
 
+/// What fog does to light on its way between a place of the walk and the ground.
+void passFogBelow(inout TraceState state, vec3 place) {
+    state.weight *= throughFogBelow(airPlace(params.air, place * params.cellSize).y, state.direction.y);
+}
+
+/// The light that a photon has where it is first scattered, against that which it began with. In fog, light from below is
+/// that of a ground without shadows: those of the clouds are seen through the fog as far as it leaves directions as they are.
+vec3 firstLightAt(bool ofSun, TraceState state, vec3 voxel) {
+    const vec2 place = airPlace(params.air, voxel);
+    vec3 light = firstLight(ofSun, params.skyAxes, state.direction, place);
+    if (FOG && GROUND && !ofSun && state.direction.y > 0.0) {
+        const vec3 share = skyOrGround(voxel / params.cellSize, state.direction) / max(ground.open, vec3(1.0e-30));
+        light *= mix(vec3(1.0), share, throughFogBelow(place.y, state.direction.y));
+    }
+    return light;
+}
+
+/// The same of light that leaves the clouds; it may have been scattered nowhere.
+void leaveThroughFog(inout TraceState state, vec3 place) {
+    if (state.scatterings == 0u) {
+        state.weight *= firstLightAt(state.photon < params.sunPhotons, state, place * params.cellSize);
+        ++state.scatterings;
+    }
+    passFogBelow(state, place);
+}
+
 /// Takes a photon that has left the clouds to the ground and back. False: it does not come back.
 bool bounce(inout TraceState state, inout Walk walk, vec3 lightPower) {
     if (state.direction.y >= 0.0) return false;
     const vec3 left = vec3(walk.cell) + walk.offset, above = overGround(left);
     const float metres = above.y / -state.direction.y;  // back, where the walk's cells reach below the ground
+    if (FOG) leaveThroughFog(state, left);
     countOnGround(above.xz + metres * state.direction.xz, lightPower * state.weight);
     const vec4 u = draw(state);
     if (!survives(state, ground.albedo, u.x)) return false;
@@ -54,6 +60,7 @@ bool bounce(inout TraceState state, inout Walk walk, vec3 lightPower) {
     const vec2 inside = clipToVolume(line, vec3(params.cells));
     if (inside.x >= inside.y) return false;
     const vec3 entry = hit + inside.x * walk.velocity;
+    if (FOG) passFogBelow(state, entry);
     walk.cell = clamp(ivec3(floor(entry)), ivec3(0), params.cells - 1);
     walk.offset = clamp(entry - vec3(walk.cell), 0.0, 1.0);
     return true;

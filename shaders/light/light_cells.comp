@@ -11,6 +11,7 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const int EDGE = 1;  // of a cell, voxels
+layout(constant_id = 1) const bool COARSE = false;  // two voxels along each edge stand for all of a cell
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform usampler3D collectorIndex;
 layout(binding = 2, rgba32f) uniform readonly image2D radiance;
@@ -21,7 +22,7 @@ layout(binding = 6, rgba32f) uniform readonly image2D colours;  // RGB fluence o
 layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
 void main() {
-    const int STRIDE = SPARSE ? max(EDGE / 4, 1) : 1;  // where there are many voxels, some stand for all of a cell
+    const int STRIDE = COARSE ? max(EDGE / 2, 1) : SPARSE ? max(EDGE / 4, 1) : 1;  // where there are many voxels, some stand for all of a cell
     const uint entry = linearInvocation(64u);
     if (entry >= push.occupied) return;
     const ivec3 cell = cellNumbered(litCells[entry], push.grid);

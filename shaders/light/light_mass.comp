@@ -8,7 +8,8 @@
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform writeonly image3D cellMass;
-layout(push_constant, scalar) uniform Push { LightFieldPush push; };
+layout(binding = 2, r32f) uniform readonly image3D majorants;  // negative or zero: empty, with its interpolation
+layout(push_constant, scalar) uniform Push { LightMassPush push; };
 
 float massOf(ivec3 lower, ivec3 upper, vec3 inverseSize) {
     float sum = 0.0;
@@ -16,6 +17,17 @@ float massOf(ivec3 lower, ivec3 upper, vec3 inverseSize) {
         for (int y = lower.y; y < upper.y; ++y)
             for (int x = lower.x; x < upper.x; ++x) sum += voxelMass(density, ivec3(x, y, z), inverseSize).x;
     return sum;
+}
+
+/// Whether the majorants of all that lies between two corners are zero.
+bool isEmpty(ivec3 lower, ivec3 upper) {
+    const ivec3 first = ivec3(vec3(lower) * push.perMajorant);
+    const ivec3 last = min(ivec3(vec3(upper) * push.perMajorant), push.majorantCells - 1);
+    for (int z = first.z; z <= last.z; ++z)
+        for (int y = first.y; y <= last.y; ++y)
+            for (int x = first.x; x <= last.x; ++x)
+                if (imageLoad(majorants, ivec3(x, y, z)).r > 0.0) return false;
+    return true;
 }
 
 void main() {
@@ -26,7 +38,8 @@ void main() {
     const ivec3 upper = min(lower + push.edge, push.size);
     const vec3 inverseSize = 1.0 / vec3(push.size);
     if (!SPARSE) {
-        imageStore(cellMass, cell, vec4(massOf(lower, upper, inverseSize)));
+        const float mass = isEmpty(lower, upper) ? 0.0 : massOf(lower, upper, inverseSize);
+        imageStore(cellMass, cell, vec4(mass));
         return;
     }
     float sum = 0.0;

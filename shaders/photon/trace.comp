@@ -61,11 +61,11 @@ bool collide(inout TraceState state, vec3 voxel, vec4 u, uint lane, inout uint c
     if (!scatters) return survives(state, params.straightWeight, u.y);
     // The sun's first scattering is drawn from the shadow volume, not from the map (docs/architecture.md).
     const bool ofSun = state.photon < params.sunPhotons;
+    if (AIR && state.scatterings == 0u) state.weight *= firstLightAt(ofSun, state, voxel);
     if (state.scatterings > 0u || !ofSun) {
         const vec3 power = (ofSun ? params.sunPower : params.skyPower) * state.weight;
         if (store(params, voxel, state.direction, power, ofSun, count * params.invocations + lane)) ++count;
     }
-    if (AIR && ofSun && state.scatterings == 0u) state.weight *= sunColour(airPlace(params.air, voxel));
     ++state.scatterings;
     return !ABSORBS || survives(state, params.albedo, u.y);
 }
@@ -94,8 +94,8 @@ void newDirection(inout TraceState state, inout Walk walk, bool enters, vec4 u, 
         walk.cell = clamp(ivec3(floor(point)), ivec3(0), params.cells - 1);
         walk.offset = clamp(point - vec3(walk.cell), 0.0, 1.0);
         state.weight = vec3(ofSun ? area / params.sunThrough : 1.0);
-        if (ofMap) state.weight = skyWeight(cell, airPlace(params.air, voxel).y, area);
-        if (GROUND && !ofSun) state.weight *= skyOrGround(point, state.direction);
+        if (ofMap) state.weight = FOG ? vec3(area) : skyWeight(cell, airPlace(params.air, voxel).y, area);
+        if (GROUND && !FOG && !ofSun) state.weight *= skyOrGround(point, state.direction);
     }
 }
 

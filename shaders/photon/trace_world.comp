@@ -6,7 +6,6 @@
 #include "shared/photon.h"
 #include "shared/phase.h"
 #include "shared/phase_table.h"
-#include "lib/entry_disc.glsl"
 #include "lib/environment_sample.glsl"
 #include "lib/merged_walk.glsl"
 
@@ -26,6 +25,8 @@ layout(binding = 3, scalar) readonly buffer Grid { MergedGridParams storedGrid; 
 layout(binding = 4, scalar) readonly buffer InverseCdf { float inverseCdf[]; };
 layout(binding = 5, scalar) buffer States { TraceState states[]; };
 layout(binding = 7, scalar) buffer RecordCounts { uint recordCounts[]; };  // of each invocation
+
+layout(binding = 31, rgba32f) uniform readonly imageBuffer starts;
 
 /// Cells that a photon may cross before the lanes that have met something go on.
 const int CROSSINGS = 16;
@@ -81,12 +82,12 @@ bool collide(inout TraceState state, uint instance, Walk walk, vec3 voxel, vec4 
     const vec4 scattering = texelOf(instance, 6);
     scatters = !FORWARD_CUT || u.x < scattering.w;
     if (!scatters) return survives(state, texelOf(instance, 7).xyz, u.y);
+    if (AIR && state.scatterings == 0u) state.weight *= firstLightAt(ofSun, state, metresOf(walk));
     // The sun's first scattering is drawn from the shadow volumes, not from the map (docs/architecture.md).
     if (state.scatterings > 0u || !ofSun) {
         const vec3 power = (ofSun ? params.sunPower : params.skyPower) * state.weight;
         if (storeIn(instance, voxel, state.direction, power, ofSun, count * params.invocations + lane)) ++count;
     }
-    if (AIR && ofSun && state.scatterings == 0u) state.weight *= sunColour(airPlace(params.air, metresOf(walk)));
     ++state.scatterings;
     return !ABSORBS || survives(state, scattering.xyz, u.y);
 }
@@ -99,35 +100,20 @@ ScatterAngle samplePhase(uint instance, float u) {
     return angleFromOneMinusCos(mix(inverseCdf[base], inverseCdf[base + 1], cell.fraction));
 }
 
-/// The angle of light that enters to an axis: to the sun's middle, or of a sky that is the same everywhere to any.
-ScatterAngle lightAngle(bool ofSun, float u) { return angleFromOneMinusCos(ofSun ? params.sunCone * u : 2.0 * u); }
-
-/// A new direction: at a scattering event in an instance, or of a photon that enters.
-void newDirection(inout TraceState state, inout Walk walk, int instance, vec4 u, vec4 v) {
-    const bool enters = instance < 0, ofSun = state.photon < params.sunPhotons;
-    const vec3 axis = enters ? (ofSun ? params.sunDirection : vec3(0.0, 1.0, 0.0)) : state.direction;
-    const ScatterAngle scattered = samplePhase(uint(max(instance, 0)), u.z), emitted = lightAngle(ofSun, u.z);
-    const ScatterAngle angle = ScatterAngle(enters ? emitted.oneMinusCos : scattered.oneMinusCos,
-                                            enters ? emitted.onePlusCos : scattered.onePlusCos,
-                                            enters ? emitted.sinTheta : scattered.sinTheta);
-    state.direction = rotateDirection(axis, angle, 6.28318531 * u.w);
-    const bool ofMap = AIR && enters && !ofSun;
-    uint cell = 0u;
-    if (ofMap) {
-        cell = skyCell(u.z, u.x);
-        state.direction = skyTravel(params.skyAxes, cell, vec2(u.w, v.w));
-    }
+/// A new direction at a scattering event in an instance.
+void newDirection(inout TraceState state, inout Walk walk, uint instance, vec4 u) {
+    state.direction = rotateDirection(state.direction, samplePhase(instance, u.z), 6.28318531 * u.w);
     setVelocity(walk, params.worldToCells * state.direction);
-    if (enters) {
-        float area;
-        const vec3 entry = entryPoint(grid.instances, state.direction, v.xyz, area);
-        const vec3 point = entry / grid.edge;
-        walk.cell = clamp(ivec3(floor(point)), ivec3(0), params.cells - 1);
-        walk.offset = clamp(point - vec3(walk.cell), 0.0, 1.0);
-        state.weight = vec3(area / grid.largestWeight);
-        if (ofMap) state.weight = skyWeight(cell, airPlace(params.air, entry).y, area);
-        if (GROUND && !ofSun) state.weight *= skyOrGround(point, state.direction);
-    }
+}
+
+/// A photon begins where start_world.comp has put it.
+void enter(inout TraceState state, inout Walk walk, int place) {
+    const vec4 point = imageLoad(starts, START_TEXELS * place), direction = imageLoad(starts, START_TEXELS * place + 1);
+    walk.cell = clamp(ivec3(floor(point.xyz)), ivec3(0), params.cells - 1);
+    walk.offset = clamp(point.xyz - vec3(walk.cell), 0.0, 1.0);
+    state.direction = direction.xyz;
+    state.weight = vec3(point.w, direction.w, imageLoad(starts, START_TEXELS * place + 2).x);
+    setVelocity(walk, params.worldToCells * state.direction);
 }
 
 /// Goes on until something is met, or for CROSSINGS cells.
@@ -148,7 +134,7 @@ void main() {
     if (lane >= params.invocations) return;
     TraceState state = states[lane];
     Walk walk = makeWalk(state.cell, state.offset, params.worldToCells * state.direction, state.depth);
-    uint count = 0u, events = 0u, nulls = 0u, absorbed = 0u, escaped = 0u, lost = 0u;
+    uint begun = 0u, count = 0u, events = 0u, nulls = 0u, absorbed = 0u, escaped = 0u, lost = 0u;
 
     for (uint step = 0u; step < params.stepLimit && count < params.recordCapacity; ++step) {
         MergedCell cell;
@@ -160,13 +146,14 @@ void main() {
                 ++escaped;
                 endPhoton(state);
             }
-            if (state.photon >= params.photons) break;
+            if (state.photon >= params.photons || begun >= grid.starts) break;
             startPhoton(state);
+            enter(state, walk, int(begun++ * params.invocations + lane));
         }
         if (event == WALK_CROSSED) continue;
         const vec4 u = draw(state);
         const vec4 v = draw(state);
-        bool scatters = enters;
+        bool scatters = false;
         int instance = -1;
         if (event == WALK_COLLISION) {
             stepToCollision(walk, cell.majorant);
@@ -186,7 +173,7 @@ void main() {
             }
         }
         walk.depth = opticalDepth(u.y);
-        if (scatters) newDirection(state, walk, instance, u, v);
+        if (scatters) newDirection(state, walk, uint(instance), u);
     }
 
     state.cell = walk.cell;

@@ -6,12 +6,12 @@
 
 SHARED_BEGIN
 
-/// Cells of a map of the sky: columns by azimuth from that of the sun, rows from the zenith down.
-const int SKY_MAP_COLUMNS = 64;
-const int SKY_MAP_ROWS = 32;
 /// Places at which the sun's light in a cloud is known: along the sun's azimuth, by height.
 const int SUN_COLOUR_COLUMNS = 8;
 const int SUN_COLOUR_ROWS = 32;
+
+/// Heights in a cloud at which the light of fog is known, from its bottom to its top.
+const int FOG_SKY_HEIGHTS = 16;
 
 /// A cell of an alias table, and what a photon from it weighs for each m² that it sees of the cloud's box.
 struct SkyCell {

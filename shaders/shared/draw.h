@@ -131,6 +131,15 @@ struct LightFieldPush {
     uint firstCollector;  // of the instance, among those of all
 };
 
+/// Mass of each cell.
+struct LightMassPush {
+    ivec3 size;        // voxels
+    ivec3 grid;        // cells
+    int edge;          // of a cell, voxels
+    vec3 perMajorant;  // 1 / edges of a cell of the majorants [1/voxels]
+    ivec3 majorantCells;
+};
+
 /// What photons counted in its cells, against what their collectors have there.
 struct LightCountsPush {
     ivec3 size;  // voxels

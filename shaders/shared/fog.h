@@ -10,7 +10,11 @@ SHARED_BEGIN
 const int MEDIUM_HOMOGENEOUS = 0;
 const int MEDIUM_EXPONENTIAL = 1;
 const int MEDIUM_SPHERE = 2;
+const int MEDIUM_ELLIPSOID = 3;
+const int MEDIUM_BOX = 4;
 
+/// Distance to a bottom or top that does not exist, metres.
+const float ENDLESS = 1.0e30F;
 /// Largest ∫ϱ: products with coefficients of 1e6/m stay far below the largest float.
 const float MAX_DENSITY_INTEGRAL = 1.0e20F;
 /// Largest spread in pixels: thousands of times the widest picture.
@@ -25,8 +29,20 @@ struct FogMedium {
     vec3 axis;        // exponential: unit vector towards thinner fog
     float falloff;    // 1/m
     float eyeHeight;  // of the eye above the offset, along the axis
-    vec3 center;      // sphere
-    float radius;
+    vec3 center;      // sphere, ellipsoid, box
+    float radius;     // sphere
+    vec3 halfSize;    // ellipsoid, box
+    // homogeneous, exponential: a layer that is level. ENDLESS where it has no bottom or no top
+    float aboveBottom;  // height of the eye above the bottom
+    float belowTop;     // depth of the eye below the top
+    float thickness;
+    int bounded;  // not 0: every vertical line has a finite optical depth, and the sky's distance is no end
+};
+
+/// Part of a path, metres from its origin.
+struct FogPart {
+    float begin;
+    float metres;  // its length
 };
 
 /// What lies between the eye and a point.
@@ -78,6 +94,20 @@ struct FetchPush {
     float separationLevel;
 };
 
+/// What is added to a picture of light that a filter has spread, or taken off where `sign_` is below 0.
+struct FogSpreadPush {
+    ViewParams view;
+    float skyDistance;
+    int media;
+    float sign_;
+    ivec2 margin;  // of the filtered light [pixels]
+};
+
+/// A margin around light that is to be filtered [pixels].
+struct FogMarginPush {
+    ivec2 margin;
+};
+
 /// A band of sources of the exact filter.
 struct ExactPush {
     ivec2 size;
@@ -121,13 +151,58 @@ SHARED_FN float sphereIntegral(vec3 center, float radius, vec3 origin, vec3 dire
     return 2.0F * (reach / radius) * max(mean / radius, 0.0F);
 }
 
+/// Metres of the path within an ellipsoid; from the closest approach outwards as in the sphere.
+SHARED_FN float ellipsoidLength(vec3 center, vec3 halfSize, vec3 origin, vec3 direction, float distance) {
+    const vec3 toEye = (origin - center) / halfSize, along = direction / halfSize;
+    const float perMetre = sqrt(dot(along, along));
+    const vec3 unit = along / perMetre, across = cross(toEye, unit);
+    const float miss = sqrt(dot(across, across));
+    if (miss >= 1.0F) return 0.0F;
+    const float closest = -dot(toEye, unit), half_ = sqrt((1.0F - miss) * (1.0F + miss));
+    return max(min(distance * perMetre - closest, half_) - max(-closest, -half_), 0.0F) / perMetre;
+}
+
+/// Metres of the path within a box.
+SHARED_FN float boxLength(vec3 center, vec3 halfSize, vec3 origin, vec3 direction, float distance) {
+    const vec3 toEye = origin - center;
+    float first = 0.0F, last = distance;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float d = direction[axis], from = -halfSize[axis] - toEye[axis], to = halfSize[axis] - toEye[axis];
+        if (abs(d) < 1.0e-30F) {
+            if (from > 0.0F || to < 0.0F) return 0.0F;
+            continue;
+        }
+        first = max(first, min(from / d, to / d));
+        last = min(last, max(from / d, to / d));
+    }
+    return max(last - first, 0.0F);
+}
+
+/// The part of a path between bottom and top of a layer. `height`: of the path's origin above the eye; `rise`: metres
+/// upwards a metre. A layer that is crossed whole has its own thickness, whatever digits its distance has.
+SHARED_FN FogPart partInLayer(FogMedium medium, float height, float rise, float distance) {
+    const float above = medium.aboveBottom + height, below = medium.belowTop - height;
+    const float risen = rise * distance, steepness = abs(rise);
+    if (abs(risen) < 1.0e-30F) return FogPart(0.0F, above >= 0.0F && below >= 0.0F ? distance : 0.0F);
+    const float low = max(min(risen, 0.0F), -above), high = min(max(risen, 0.0F), below);
+    if (high <= low) return FogPart(0.0F, 0.0F);
+    const float crossed = low == -above && high == below ? medium.thickness : high - low;
+    return FogPart((rise > 0.0F ? low : -high) / steepness, min(crossed / steepness, distance));
+}
+
 /// P = ∫ ϱ from `origin` along the unit vector `direction` [m]. Media without an end stop at `skyDistance`.
 SHARED_FN float densityIntegral(FogMedium medium, vec3 origin, vec3 direction, float distance, float skyDistance) {
     if (medium.kind == MEDIUM_SPHERE) return sphereIntegral(medium.center, medium.radius, origin, direction, distance);
-    const float within = min(distance, skyDistance);
-    if (medium.kind == MEDIUM_HOMOGENEOUS) return within;
-    const float start = medium.eyeHeight + dot(origin, medium.axis);
-    return exponentialIntegral(medium.falloff, start, start + within * dot(direction, medium.axis), within);
+    if (medium.kind == MEDIUM_ELLIPSOID)
+        return ellipsoidLength(medium.center, medium.halfSize, origin, direction, distance);
+    if (medium.kind == MEDIUM_BOX) return boxLength(medium.center, medium.halfSize, origin, direction, distance);
+    FogPart part = FogPart(0.0F, medium.bounded != 0 ? distance : min(distance, skyDistance));
+    if (medium.thickness < ENDLESS || medium.aboveBottom < ENDLESS || medium.belowTop < ENDLESS)
+        part = partInLayer(medium, origin.y, direction.y, part.metres);
+    if (medium.kind == MEDIUM_HOMOGENEOUS) return min(part.metres, MAX_DENSITY_INTEGRAL);
+    const float start = medium.eyeHeight + dot(origin, medium.axis), rise = dot(direction, medium.axis);
+    const float begin = start + part.begin * rise;
+    return exponentialIntegral(medium.falloff, begin, begin + part.metres * rise, part.metres);
 }
 
 SHARED_FN FogPath clearPath() {
@@ -171,11 +246,13 @@ SHARED_FN float levelVariance(float stepVariance, int level) {
 }
 
 #ifdef __cplusplus
-static_assert(sizeof(FogMedium) == 80 && offsetof(FogMedium, radius) == 76);
+static_assert(sizeof(FogMedium) == 108 && offsetof(FogMedium, bounded) == 104);
 static_assert(sizeof(FogPush) == 72 && offsetof(FogPush, last) == 68);
 static_assert(sizeof(LevelPush) == 60 && offsetof(LevelPush, levelScale) == 56);
 static_assert(sizeof(SeparationPush) == 20 && offsetof(SeparationPush, spread) == 16);
 static_assert(sizeof(FetchPush) == 32 && offsetof(FetchPush, separationLevel) == 28);
+static_assert(sizeof(FogSpreadPush) == 76 && offsetof(FogSpreadPush, margin) == 68);
+static_assert(sizeof(FogMarginPush) == 8);
 static_assert(sizeof(ExactPush) == 16 && offsetof(ExactPush, rows) == 12);
 #endif
 

@@ -30,7 +30,17 @@ struct BandPush {
     ivec2 size;
 };
 
+/// A picture of the surroundings behind the clouds.
+struct SkyMapParams {
+    ViewParams view;
+    mat3 toMap;   // of directions: from the world to the frame of the map (sky/map_sky.h)
+    vec2 size;    // of the map, pixels, without the column on either side that repeats the other
+    ivec2 first;  // pixel of the picture where the frame begins
+    int samples;  // rays along each side of a pixel
+};
+
 #ifdef __cplusplus
+static_assert(sizeof(SkyMapParams) == 112 && offsetof(SkyMapParams, samples) == 108);
 static_assert(sizeof(SunPixel) == 20 && offsetof(SunPixel, radiance) == 8);
 static_assert(sizeof(BackgroundPush) == 36 && offsetof(BackgroundPush, radiance) == 24);
 static_assert(sizeof(SunPixelsPush) == 4);

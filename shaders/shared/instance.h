@@ -15,7 +15,7 @@ struct InstanceParams {
     ivec3 cells;         // of the majorant grid
     vec3 cellSize;       // voxels
     float extinction;    // σt at density 1 [1/m]
-    float voxelLength;   // metres: the finest step of a march
+    float voxelLength;   // metres: the finest step of a march; 0 where voxels are no cubes
     vec3 radianceScale;  // voxel → texture coordinates of the in-scattered radiance
     mat3 voxelToShadow;  // voxel → texture coordinates of the shadow volume
     vec3 shadowOffset;
@@ -52,24 +52,26 @@ struct CopyVolumePush {
 };
 
 /// A cloud that may stand between another cloud and the sun: how its shadow volume is found from a texel of the
-/// other's.
+/// other's. Five texels.
 struct Occluder {
-    mat3 texelToTexel;  // texel number of the shaded volume → texel coordinates of this one's
-    vec3 offset;
-    vec3 origin;  // of its volume in the atlas
-    vec3 size;    // texels
+    vec4 texelToTexel[3];  // rows: texel number of the shaded volume to texel coordinates of this one's
+    vec4 origin;           // of its volume in the atlas
+    vec4 size;             // texels
 };
+const int OCCLUDER_TEXELS = 5;
+/// Texels of a column that are filled together.
+const int SHADOW_SEGMENT = 8;
 
 /// The shadow volume of one instance, with what stands before it.
 struct SharedShadowPush {
     ivec3 size;    // texels
     ivec3 origin;  // in the atlas
-    uint first;    // of its occluders, itself among them
+    uint first;    // of its occluders
     uint occluders;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Occluder) == 72 && offsetof(Occluder, size) == 60);
+static_assert(sizeof(Occluder) == 16 * OCCLUDER_TEXELS && offsetof(Occluder, size) == 64);
 static_assert(sizeof(SharedShadowPush) == 32 && offsetof(SharedShadowPush, occluders) == 28);
 static_assert(sizeof(InstanceParams) == 320 && offsetof(InstanceParams, airTexel) == 312);
 static_assert(sizeof(AtlasParams) == 36 && offsetof(AtlasParams, shadow) == 24);

@@ -72,11 +72,19 @@ struct SkyPassParams {
     float pixelAngle;  // of a pixel [radians]
     float nearest;     // distance of the air's first slice [m]
     float farthest;    // and of its last
+    SkyViewParams moon;
+};
+
+/// The same where there is level fog.
+struct SkyFogParams {
+    SkyPassParams sky;
+    int aboveFog;  // not 0: the eye is above the fog, whose light is in the picture already
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(SkyViewParams) == 60 && offsetof(SkyViewParams, asymmetry) == 56);
-static_assert(sizeof(SkyPassParams) == 136 && offsetof(SkyPassParams, farthest) == 132);
+static_assert(sizeof(SkyPassParams) == 196 && offsetof(SkyPassParams, moon) == 136);
+static_assert(sizeof(SkyFogParams) == 200 && offsetof(SkyFogParams, aboveFog) == 196);
 #endif
 
 SHARED_END

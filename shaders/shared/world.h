@@ -22,6 +22,9 @@ struct MergedGridParams {
     uint instances;
     float edge;           // of a cell [m]
     float largestWeight;  // [m²] that a photon may stand for
+    ivec3 entryCells;     // of the grid that photons begin in (photon/entry_grid.h)
+    float entryEdge;      // of one of them [m]
+    uint starts;          // photons that an invocation may begin in a round
 };
 
 /// A cloud that photons walk through: eleven texels.
@@ -60,8 +63,17 @@ struct EntryDisc {
 };
 const int ENTRY_TEXELS = 8;
 
+/// Where a photon begins: three texels. What an invocation begins with in a round lies `invocations` apart.
+struct PhotonStart {
+    vec4 place;      // cells of the merged grid; w: weight of red
+    vec4 direction;  // w: weight of green
+    vec4 rest;       // x: weight of blue
+};
+const int START_TEXELS = 3;
+
 #ifdef __cplusplus
-static_assert(sizeof(MergedGridParams) == 24 && offsetof(MergedGridParams, largestWeight) == 20);
+static_assert(sizeof(PhotonStart) == 16 * START_TEXELS && offsetof(PhotonStart, rest) == 32);
+static_assert(sizeof(MergedGridParams) == 44 && offsetof(MergedGridParams, starts) == 40);
 static_assert(sizeof(WalkedInstance) == 16 * WALKED_TEXELS && offsetof(WalkedInstance, unused) == 168);
 static_assert(sizeof(EntryDisc) == 16 * ENTRY_TEXELS && offsetof(EntryDisc, other) == 124);
 #endif

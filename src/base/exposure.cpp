@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace lumulus {
@@ -100,6 +101,26 @@ void addPicture(const LayeredImage& image, std::size_t step, Meter& clouds, Mete
     }
 }
 
+/// Adds every `step`th pixel of what is behind the clouds.
+void addBackground(const LayeredImage& image, std::size_t step, Meter& free) {
+    const Layers cloud(image, "cloud.R", "cloud.G", "cloud.B", "cloud.A");
+    const Layers whole(image, "R", "G", "B", "A");
+    const bool clouds = cloud.complete() && cloud.alpha != nullptr;
+    for (std::size_t i = step / 2; whole.complete() && i < image.pixels(); i += step) {
+        const double left = clouds ? 1.0 - static_cast<double>(cloud.alpha[i]) : 1.0;
+        const double behind = whole.luminance(i) - (clouds ? cloud.luminance(i) : 0.0);
+        if (left > 0.01) free.add({behind / left, left});
+    }
+}
+
+/// How many pixels are looked at, and which: every so many-th.
+std::pair<double, std::size_t> samplesOf(std::span<const LayeredImage* const> pictures) {
+    std::size_t pixels = 0;
+    for (const LayeredImage* picture : pictures) pixels += picture->pixels();
+    const std::size_t step = (pixels + mostSamples - 1) / mostSamples | 1;  // odd: not the same columns in every row
+    return {static_cast<double>(pixels) / static_cast<double>(step), step};
+}
+
 }  // namespace
 
 double gainOfEv100(double ev100) {
@@ -110,13 +131,19 @@ double ev100OfGain(double gain) {
     return std::log2(efficacy / (1.2 * gain));
 }
 
+std::optional<double> backgroundGain(std::span<const LayeredImage* const> pictures) {
+    const auto [pixels, step] = samplesOf(pictures);
+    Meter free;
+    for (const LayeredImage* picture : pictures) addBackground(*picture, step, free);
+    const double luminance = free.percentile(skyPercentile);
+    if (free.total() < leastCover * pixels || !(luminance > 0.0)) return std::nullopt;
+    return skyValue / luminance;
+}
+
 double meteredGain(std::span<const LayeredImage* const> pictures) {
-    std::size_t pixels = 0;
-    for (const LayeredImage* picture : pictures) pixels += picture->pixels();
-    const std::size_t step = (pixels + mostSamples - 1) / mostSamples | 1;  // odd: not the same columns in every row
+    const auto [seen, step] = samplesOf(pictures);
     Meter clouds, all;
     for (const LayeredImage* picture : pictures) addPicture(*picture, step, clouds, all);
-    const double seen = static_cast<double>(pixels) / static_cast<double>(step);
     const bool cloudy = clouds.total() >= leastCover * seen;
     const double luminance = cloudy ? clouds.percentile(cloudPercentile) : all.percentile(skyPercentile);
     if (!(luminance > 0.0)) return 1.0;

@@ -21,4 +21,8 @@ double ev100OfGain(double gain);
 /// not numbers do not count; 1 where none does.
 double meteredGain(std::span<const LayeredImage* const> pictures);
 
+/// Factor for radiance by which the median luminance of what is seen beside and through the clouds is 0.18; nothing
+/// where that is less than 2 % of the pictures, or dark.
+std::optional<double> backgroundGain(std::span<const LayeredImage* const> pictures);
+
 }  // namespace lumulus

@@ -19,6 +19,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/exr_claims.h"
+#include "base/text.h"
 
 namespace lumulus {
 namespace {
@@ -122,7 +123,8 @@ auto opened(const fs::path& path, const Read& read) {
     } catch (const Error&) {
         throw;
     } catch (const std::exception& e) {
-        throw InputError(std::string("cannot read the picture: ") + e.what(), path.string(), "give an EXR picture");
+        throw InputError(std::string("cannot read the picture: ") + oneLine(e.what()), path.string(),
+                         "give an EXR picture");
     }
 }
 

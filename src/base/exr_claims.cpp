@@ -3,8 +3,12 @@
 #include <openexr.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <fstream>
+#include <map>
 #include <string>
+#include <string_view>
 
 #include "base/error.h"
 
@@ -83,6 +87,82 @@ Pixel pixelOf(exr_const_context_t header, int part) {
     throw InputError(what, path.string(), "write or copy it again");
 }
 
+/// Types of attributes whose values always take the same bytes: OpenEXR reads as many, whatever a file claims.
+const std::map<std::string_view, std::int32_t> fixedBytes{{"box2f", 16},
+                                                          {"box2i", 16},
+                                                          {"chromaticities", 32},
+                                                          {"compression", 1},
+                                                          {"deepImageState", 1},
+                                                          {"double", 8},
+                                                          {"envmap", 1},
+                                                          {"float", 4},
+                                                          {"int", 4},
+                                                          {"keycode", 28},
+                                                          {"lineOrder", 1},
+                                                          {"m33d", 72},
+                                                          {"m33f", 36},
+                                                          {"m44d", 128},
+                                                          {"m44f", 64},
+                                                          {"rational", 8},
+                                                          {"tiledesc", 9},
+                                                          {"timecode", 8},
+                                                          {"v2d", 16},
+                                                          {"v2f", 8},
+                                                          {"v2i", 8},
+                                                          {"v3d", 24},
+                                                          {"v3f", 12},
+                                                          {"v3i", 12}};
+
+/// Bytes that OpenEXR reads of the value of an attribute that claims so many.
+std::int32_t bytesRead(const std::string& type, std::int32_t claimed) {
+    if (type == "floatvector") return claimed / 4 * 4;
+    const auto fixed = fixedBytes.find(type);
+    return fixed == fixedBytes.end() ? claimed : fixed->second;
+}
+
+/// Whether the list of channels at the file's place ends where it claims to: OpenEXR goes on at its last name, which is
+/// empty, and takes what follows there for further attributes.
+bool channelsFillTheirList(std::ifstream& file, std::int32_t bytes) {
+    constexpr std::streamoff afterName = 16;  // type, linearity, distances of samples
+    const std::streamoff end = file.tellg() + std::streamoff{bytes};
+    while (file && file.tellg() < end) {
+        if (file.peek() == 0) return file.tellg() + std::streamoff{1} == end;
+        while (file.get() > 0) {
+        }
+        file.seekg(afterName, std::ios::cur);
+    }
+    return false;
+}
+
+/// Attributes of all headers. OpenEXR takes the memory that one claims before it reads.
+void checkAttributes(const fs::path& path, std::uint64_t fileBytes) {
+    static_assert(std::endian::native == std::endian::little);
+    constexpr std::uint32_t manyParts = 0x1000;
+    constexpr std::streamsize longestName = 256;
+    std::ifstream file(path, std::ios::binary);
+    std::uint32_t version[2] = {};
+    file.read(reinterpret_cast<char*>(version), sizeof(version));
+    char name[longestName], type[longestName];
+    while (file.getline(name, longestName, '\0')) {
+        if (name[0] == '\0') {  // the end of a header
+            if ((version[1] & manyParts) == 0 || file.peek() == 0) return;
+            continue;
+        }
+        std::int32_t bytes = 0;
+        file.getline(type, longestName, '\0').read(reinterpret_cast<char*>(&bytes), sizeof(bytes));
+        if (!file) return;  // what is wrong there OpenEXR says
+        const auto begin = static_cast<std::uint64_t>(file.tellg());
+        if (bytes < 0 || static_cast<std::uint64_t>(bytes) > fileBytes - begin)
+            refuse(path, "an attribute claims " + std::to_string(bytes) + " bytes, more than the file can hold");
+        if (bytes != bytesRead(type, bytes))
+            refuse(path,
+                   "an attribute of the type " + std::string(type) + " claims " + std::to_string(bytes) + " bytes");
+        if (std::string_view(type) == "chlist" && !channelsFillTheirList(file, bytes))
+            refuse(path, "the list of channels does not have the length that it claims");
+        file.seekg(static_cast<std::streamoff>(begin) + bytes);
+    }
+}
+
 /// The part that is read.
 void checkPicture(exr_const_context_t header, const fs::path& path, double fileBytes) {
     constexpr int part = 0;
@@ -115,6 +195,7 @@ void checkExrClaims(const fs::path& path) {
         throw InputError(std::string("cannot read the picture: ") + exr_get_default_error_message(header.result()),
                          path.string(), "give an EXR picture");
     const auto fileBytes = static_cast<double>(fs::file_size(path));
+    checkAttributes(path, fs::file_size(path));
     int parts = 0;
     exr_get_count(header.get(), &parts);
     for (int part = 0; part < parts; ++part) {

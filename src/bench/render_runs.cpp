@@ -51,6 +51,7 @@ Timed renderOnce(const scene::Scene& scene, const std::string& device) {
 Cost costOf(scene::Scene scene, const std::string& device) {
     constexpr std::int64_t few = 20000, more = 200000;
     scene.photonMap.photons = few;
+    scene.photonMap.photonsGiven = true;
     const Timed less = renderOnce(scene, device);
     scene.photonMap.photons = more;
     return costFrom({few, less.warmSeconds}, {more, renderOnce(scene, device).warmSeconds});
@@ -68,6 +69,7 @@ std::vector<Run> renderRuns(const scene::Scene& scene, const std::string& device
         for (const std::uint64_t seed : seeds) {
             scene::Scene wanted = scene;
             wanted.photonMap.photons = budget.photons;
+            wanted.photonMap.photonsGiven = true;
             wanted.photonMap.seed = seed;
             const Timed timed = renderOnce(wanted, device);
             runs.push_back({Method::render, budget.seconds, timed.seconds, timed.warmSeconds, timed.photons,

@@ -10,6 +10,7 @@
 #include "base/log.h"
 #include "base/version.h"
 #include "cli/advice.h"
+#include "cli/bake.h"
 #include "cli/bench.h"
 #include "cli/cloud.h"
 #include "cli/compare.h"
@@ -17,6 +18,7 @@
 #include "cli/fetch.h"
 #include "cli/help.h"
 #include "cli/info.h"
+#include "cli/options.h"
 #include "cli/output.h"
 #include "cli/query.h"
 #include "cli/reference.h"
@@ -29,73 +31,28 @@
 namespace lumulus::cli {
 namespace {
 
-/// Runs the subcommand of the command line; empty until the command line is parsed.
-using Action = std::function<void()>;
-
-constexpr const char* sceneHelp = "Scene file (TOML), an OpenVDB or NanoVDB file, or - for standard input";
-
-/// Refuses empty text, which usually comes from an unset shell variable and is no wish for the default.
-CLI::Validator notEmpty() {
-    return {[](const std::string& text) { return text.empty() ? "give it a value" : ""; }, "TEXT"};
-}
-
-/// The range of seeds, 0 to 2^53 as in scene files.
-CLI::Range seedRange() {
-    return {std::uint64_t{0}, std::uint64_t{1} << 53};
-}
-
-CLI::Option* addDevice(CLI::App& command, std::string& device) {
-    return command.add_option("--device", device, "Name (a part is enough) or index of a device, see info --devices")
-        ->check(notEmpty());
-}
-
-void addQuality(CLI::App& command, std::optional<scene::Quality>& quality) {
-    const std::map<std::string, scene::Quality> qualities{{"draft", scene::Quality::draft},
-                                                          {"interactive", scene::Quality::interactive},
-                                                          {"final", scene::Quality::final}};
-    command
-        .add_option_function<std::string>(
-            "--quality", [&quality, qualities](const std::string& name) { quality = qualities.at(name); },
-            "Preset for keys that the scene leaves out: draft, interactive or final")
-        ->check(CLI::IsMember({"draft", "interactive", "final"}));
-}
-
-void addRender(CLI::App& app, RenderOptions& options, Action& action) {
-    CLI::App* command = app.add_subcommand("render", "Render a scene to pictures");
-    command->add_option("scene", options.scene, sceneHelp)->required();
-    command->add_option("-o,--output", options.outputs, "Picture: .exr (linear float layers) or .png; may repeat")
-        ->required()
-        ->allow_extra_args(false);
-    addQuality(*command, options.quality);
-    command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
-        ->allow_extra_args(false);
-    command->add_option("--seed", options.seed, "Seed of the random numbers (photon_map.seed)")->check(seedRange());
-    command
-        ->add_option("--seconds", options.seconds,
-                     "Trace photons so that the whole run, with drawing and writing, takes this many seconds")
-        ->check(notEmpty());
-    command
-        ->add_option("--target-error", options.targetError,
-                     "Trace photons until the estimated relMSE of their noise is this small")
-        ->check(notEmpty());
-    addDevice(*command, options.device);
-    command->add_option("--stats", options.stats, "Write statistics as JSON to this file, - for standard output")
-        ->check(notEmpty());
-    command->add_flag("--quiet", options.quiet, "Show no progress");
-    command->add_flag("--validate", options.validate, "Run with Vulkan validation; fail on any message");
-    command->footer(
-        "Example:\n  lumulus render configs/scenes/cumulus.toml -o cumulus.exr -o cumulus.png --quality draft");
-    command->callback([&options, &action] { action = [&options] { runRender(options); }; });
-}
-
 void addCloud(CLI::App& app, CloudOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("cloud", "Make a procedural cloud as an OpenVDB file");
     command->add_option("kind", options.kind, "cumulus, stratocumulus, stratus, cirrus, sphere or slab")->required();
     command->add_option("-o,--output", options.output, "OpenVDB file (.vdb)")->required();
     command->add_option("--resolution", options.resolution, "Voxels along the longest side")->capture_default_str();
     command->add_option("--seed", options.seed, "Seed of the shape")->check(seedRange())->capture_default_str();
+    command
+        ->add_option("--frames", options.frames,
+                     "Files of a cloud that moves, FIRST-LAST or FIRST-LAST:STEP, each with its velocities")
+        ->check(notEmpty());
+    command->add_option("--fps", options.fps, "Frames a second")->check(CLI::Range(1e-3, 1e4))->capture_default_str();
+    command->add_option("--wind", options.wind, "With --frames: velocity of all of it, X,Y,Z, m/s")
+        ->delimiter(',')
+        ->expected(3)
+        ->check(CLI::Range(-1e4, 1e4));
+    command->add_option("--swirl", options.swirl, "With --frames: speed with which it deforms, m/s")
+        ->check(CLI::Range(0.0, 1e3))
+        ->capture_default_str();
     command->add_flag("--quiet", options.quiet, "No progress");
-    command->footer("Example:\n  lumulus cloud cumulus -o cumulus.vdb --resolution 256 --seed 7");
+    command->footer(
+        "Example:\n  lumulus cloud cumulus -o cumulus.vdb --resolution 256 --seed 7\n"
+        "  lumulus cloud cumulus -o moving_####.vdb --frames 0-23 --fps 1 --wind 10,0,0 --swirl 4");
     command->callback([&options, &action] { action = [&options] { runCloud(options); }; });
 }
 
@@ -127,8 +84,7 @@ void addQuery(CLI::App& app, QueryOptions& options, Action& action) {
     command->add_option("--size", options.size, "Pixels of the rectangle, WIDTHxHEIGHT")->capture_default_str();
     command->add_option("--height", options.height, "Height of the rectangle, metres (default: the ground's)");
     command->add_option("-o,--output", options.output, "Table, or picture (.exr) of a rectangle; default: stdout");
-    command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
-        ->allow_extra_args(false);
+    addOverrides(*command, options.overrides);
     addQuality(*command, options.quality);
     addDevice(*command, options.device);
     command->add_flag("--json", options.json, "As JSON");
@@ -153,8 +109,7 @@ void addReference(CLI::App& app, ReferenceOptions& options, Action& action) {
             "global (default) or local, which is faster and changes only the noise")
         ->check(CLI::IsMember({"global", "local"}));
     command->add_flag("--resume", options.resume, "Continue the existing file; --spp includes its samples");
-    command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
-        ->allow_extra_args(false);
+    addOverrides(*command, options.overrides);
     command->add_option("--seed", options.seed, "Seed of the random numbers (photon_map.seed)")->check(seedRange());
     command->add_option("--stats", options.stats, "Write statistics as JSON to this file, - for standard output")
         ->check(notEmpty());
@@ -201,8 +156,7 @@ void addComposite(CLI::App& app, CompositeOptions& options, Action& action) {
     command->add_option("-o,--output", options.outputs, "Picture: .exr (linear float) or .png; may repeat")
         ->required()
         ->allow_extra_args(false);
-    command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
-        ->allow_extra_args(false);
+    addOverrides(*command, options.overrides);
     addDevice(*command, options.device);
     command->add_option("--stats", options.stats, "Write statistics as JSON to this file, - for standard output")
         ->check(notEmpty());
@@ -231,8 +185,7 @@ void addSlab(CLI::App& app, SlabOptions& options, Action& action) {
 void addSky(CLI::App& app, SkyOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("sky", "Show where sun and moon stand and the light of a scene's sky");
     command->add_option("scene", options.scene, "Scene file (TOML) or - for standard input; default: an empty scene");
-    command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
-        ->allow_extra_args(false);
+    addOverrides(*command, options.overrides);
     command->add_flag("--json", options.json, "As JSON");
     command->footer(
         "Example:\n  lumulus sky --set sky.model=atmosphere --set time.utc=2026-06-21T10:00:00Z --set "
@@ -253,8 +206,7 @@ void addBench(CLI::App& app, BenchOptions& options, Action& action) {
         ->capture_default_str();
     command->add_option("--cycles", options.cycles, "Points of Blender's Cycles, from scripts/study/run cycles (.csv)")
         ->check(notEmpty());
-    command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
-        ->allow_extra_args(false);
+    addOverrides(*command, options.overrides);
     addDevice(*command, options.device);
     command->add_flag("--quiet", options.quiet, "No progress");
     command->footer("Example:\n  lumulus bench configs/scenes/cumulus.toml --reference truth.exr -o bench");
@@ -275,8 +227,7 @@ void addFetch(CLI::App& app, FetchOptions& options, Action& action) {
     command->add_option("--token-file", options.tokenFile, "File with the server's token");
     command->add_option("--scene", options.scene, "Name of a scene on the server, or a local scene file (.toml)");
     command->add_option("--vdb", options.vdb, "OpenVDB file to upload instead of the scene's cloud");
-    command->add_option("--set", options.overrides, "Override section.key=value of the scene; may repeat")
-        ->allow_extra_args(false);
+    addOverrides(*command, options.overrides);
     command->add_option("--quality", options.quality, "Preset, as for render: draft, interactive or final")
         ->check(CLI::IsMember({"draft", "interactive", "final"}));
     command->add_option("--width", options.width, "Pixels");
@@ -323,7 +274,7 @@ void addThreads(CLI::App& app, std::optional<int>& threads) {
 ThreadUse useOf(const std::string& command, const InfoOptions& info, const SlabOptions& slab,
                 const QueryOptions& query) {
     if (command == "serve") return ThreadUse::server;
-    const bool device = command == "render" || command == "composite" || command == "bench" ||
+    const bool device = command == "render" || command == "bake" || command == "composite" || command == "bench" ||
                         (command == "slab" && !slab.reference) || (command == "info" && info.devices) ||
                         (command == "query" && !query.ambient.empty());
     return device ? ThreadUse::device : ThreadUse::host;
@@ -337,6 +288,8 @@ void parseAndRun(int argc, const char* const* argv) {
     app.require_subcommand(1);
     Action action;
     RenderOptions render;
+    MergeOptions merge;
+    BakeOptions bake;
     CloudOptions cloud;
     InfoOptions info;
     QueryOptions query;
@@ -351,6 +304,8 @@ void parseAndRun(int argc, const char* const* argv) {
     HelpOptions help;
     std::optional<int> threads;
     addRender(app, render, action);
+    addMerge(app, merge, action);
+    addBake(app, bake, action);
     addCloud(app, cloud, action);
     addInfo(app, info, action);
     addQuery(app, query, action);

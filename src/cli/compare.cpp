@@ -66,6 +66,11 @@ std::string asJson(const Comparison& c, double flip) {
     return json.dump() + "\n";
 }
 
+double flipOf(const LayeredImage& image, const LayeredImage& truth, double exposure) {
+    return reference::flipMean(
+        reference::flip(toneMap(image, exposure), toneMap(truth, exposure), image.width, image.height));
+}
+
 /// The difference I − R, channel by channel.
 LayeredImage difference(const LayeredImage& image, const LayeredImage& reference) {
     LayeredImage result;
@@ -105,6 +110,11 @@ LayeredImage readComparable(const std::filesystem::path& path, const reference::
 
 }  // namespace
 
+std::string comparisonJson(const LayeredImage& image, const LayeredImage& truth, double exposure) {
+    reference::requireComparable({image, "image"}, {truth, "reference"});
+    return asJson(reference::compare(image, truth), flipOf(image, truth, exposure));
+}
+
 void runCompare(const CompareOptions& options) {
     // the range of the option lets NaN through
     if (std::isnan(options.exposure)) {
@@ -128,8 +138,7 @@ void runCompare(const CompareOptions& options) {
         comparison = reference::compare(image, truth, second, denominator);
         truth = meanOf(std::move(truth), second);
     }
-    const double flip = reference::flipMean(
-        reference::flip(toneMap(image, options.exposure), toneMap(truth, options.exposure), image.width, image.height));
+    const double flip = flipOf(image, truth, options.exposure);
     printOut(options.json ? asJson(comparison, flip) : asText(comparison, flip, image.pixels()));
     if (!options.diff.empty()) writeDifference(options.diff, image, truth);
 }

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+
+#include "base/image.h"
 
 namespace lumulus::cli {
 
@@ -16,5 +19,8 @@ struct CompareOptions {
 
 /// Runs `lumulus compare`: measures the error of a picture. Errors: InputError for pictures that do not fit.
 void runCompare(const CompareOptions& options);
+
+/// What `lumulus compare --json` tells of a picture and a reference. Errors: those of reference::compare.
+std::string comparisonJson(const LayeredImage& image, const LayeredImage& truth, double exposure);
 
 }  // namespace lumulus::cli

@@ -110,9 +110,9 @@ void write(const QueryOptions& options, std::string_view text) {
 }
 
 query::Media loadMedia(const QueryOptions& options, const scene::Scene& scene, Steps& steps) {
-    const CloudVolumes volumes = loadClouds(scene, steps.reporter());
+    CloudVolumes volumes = loadClouds(scene, steps.reporter(), stopIfInterrupted, FieldStorage::asWanted);
     tellClouds({}, volumes.warnings, options.quiet);
-    return query::mediaOf(scene, volumes);
+    return query::mediaOf(scene, std::move(volumes));
 }
 
 void answerWithPassages(const QueryOptions& options, const scene::Scene& scene) {
@@ -141,9 +141,7 @@ void requireAboveGround(const std::vector<glm::dvec3>& points, const scene::Scen
 /// Direct sunlight on a plane that faces the sun, then the coefficients, each R, G, B.
 std::vector<glm::dvec3> lightAt(Renderer& renderer, ViewState& state, const query::Media& media,
                                 const glm::dvec3& point) {
-    const scene::Sun& sun = renderer.sun();
-    const auto passage = query::towardsSun(media, std::span(&point, 1), sun.directionTo, stopIfInterrupted).front();
-    std::vector<glm::dvec3> values{sun.irradiance * passage.transmittance()};
+    std::vector<glm::dvec3> values{sunIrradianceAt(renderer, media, point, stopIfInterrupted)};
     for (const glm::dvec3& coefficient : ambientAt(renderer, state, point).coefficients) values.push_back(coefficient);
     return values;
 }

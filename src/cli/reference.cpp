@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/atomic_file.h"
@@ -21,6 +22,7 @@
 #include "cli/stats_json.h"
 #include "reference/film_file.h"
 #include "reference/render.h"
+#include "scene/fog_bounds.h"
 #include "scene/load.h"
 #include "volume/load.h"
 #include "volume/place_clouds.h"
@@ -38,7 +40,9 @@ double secondsSince(Clock::time_point start) {
 scene::Scene sceneOf(const ReferenceOptions& options) {
     std::vector<std::string> overrides = options.overrides;
     if (options.seed) overrides.push_back("photon_map.seed=" + std::to_string(*options.seed));
-    return placeClouds(scene::loadScene(options.scene, overrides));
+    scene::Scene scene = scene::loadScene(options.scene, overrides);
+    scene::requireBoundedFog(scene);
+    return placeClouds(std::move(scene));
 }
 
 void checkOptions(const ReferenceOptions& options) {
@@ -114,13 +118,7 @@ void write(const ReferenceOptions& options, const scene::Scene& scene, const ref
            std::span<const CloudSummary> clouds) {
     const reference::Film& film = renderer.film();
     LayeredImage image = renderer.picture();
-    image.attributes["scene"] = scene.source;
-    image.attributes["seed"] = std::to_string(scene.photonMap.seed);
-    image.attributes["software"] = std::string("lumulus ") + version;
-    image.attributes["device"] = "CPU";
-    image.attributes["majorant"] = options.localMajorant ? "local" : "global";
-    image.attributes["samples"] = std::to_string(film.samples);
-    image.attributes["lost"] = std::to_string(film.lost);
+    noteReference(image, scene, film, options.localMajorant);
     noteGrids(image, clouds);
     // the sums come first: an interruption between the two files loses no work
     reference::writeFilm(reference::sumsBeside(options.output), film, renderer.fingerprint());
@@ -128,6 +126,16 @@ void write(const ReferenceOptions& options, const scene::Scene& scene, const ref
 }
 
 }  // namespace
+
+void noteReference(LayeredImage& image, const scene::Scene& scene, const reference::Film& film, bool localMajorant) {
+    image.attributes["scene"] = scene.source;
+    image.attributes["seed"] = std::to_string(scene.photonMap.seed);
+    image.attributes["software"] = std::string("lumulus ") + version;
+    image.attributes["device"] = "CPU";
+    image.attributes["majorant"] = localMajorant ? "local" : "global";
+    image.attributes["samples"] = std::to_string(film.samples);
+    image.attributes["lost"] = std::to_string(film.lost);
+}
 
 void runReference(const ReferenceOptions& options) {
     checkOptions(options);
@@ -143,7 +151,7 @@ void runReference(const ReferenceOptions& options) {
     if (renderer.film().lost > 0)
         logWarning(fmt::format("{} paths were lost: they reached the limit of scattering events{}",
                                renderer.film().lost,
-                               scene.fog.media.empty() ? "" : " (a smaller fog.sky_distance bounds the fog)"));
+                               scene.fog.media.empty() ? "" : " (thinner fog, or lower layers, loses fewer)"));
     if (interrupted()) logWarning(fmt::format("interrupted: the picture has {} samples per pixel", samples));
     tellDefaults(scene, options.quiet);
 }

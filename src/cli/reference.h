@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "base/image.h"
+#include "reference/film.h"
+#include "scene/scene.h"
+
 namespace lumulus::cli {
 
 struct ReferenceOptions {
@@ -24,5 +28,8 @@ struct ReferenceOptions {
 /// Runs `lumulus reference`: renders without bias and writes the picture, and beside it the exact sums (`.sums`), which
 /// a later run can continue. Errors: InputError for bad input, Error if no pass was finished.
 void runReference(const ReferenceOptions& options);
+
+/// Notes in the header of a picture of the path tracer what made it.
+void noteReference(LayeredImage& image, const scene::Scene& scene, const reference::Film& film, bool localMajorant);
 
 }  // namespace lumulus::cli

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/display_transform.h"
@@ -14,13 +15,15 @@
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/progress.h"
-#include "base/version.h"
 #include "cli/clouds_told.h"
 #include "cli/output.h"
+#include "cli/picture_files.h"
+#include "cli/render_frames.h"
 #include "cli/stats_json.h"
 #include "progressive/bias.h"
 #include "progressive/trace_until.h"
 #include "render/renderer.h"
+#include "scene/fog_bounds.h"
 #include "scene/load.h"
 #include "volume/place_clouds.h"
 
@@ -43,13 +46,16 @@ void checkOutputs(const RenderOptions& options) {
     for (const auto& output : outputs) requireSuffix(output, {".exr", ".png"});
     DisplayTransform::ofEnvironment();
     if (statsToFile(options)) outputs.emplace_back(options.stats);
+    if (!options.maps.out.empty()) outputs.push_back(options.maps.out);
     checkPlaces(outputs);
 }
 
 scene::Scene sceneOf(const RenderOptions& options) {
     std::vector<std::string> overrides = options.overrides;
     if (options.seed) overrides.push_back("photon_map.seed=" + std::to_string(*options.seed));
-    return placeClouds(scene::loadScene(options.scene, overrides, options.quality));
+    scene::Scene scene = scene::loadScene(options.scene, overrides, options.quality);
+    scene::requireBoundedFog(scene);
+    return placeClouds(std::move(scene));
 }
 
 void requirePositive(const std::optional<double>& value, const char* option) {
@@ -61,6 +67,16 @@ bool progressive(const RenderOptions& options) {
     return options.seconds || options.targetError;
 }
 
+/// Checks that there is something to write, and by one way.
+void requireSomeOutput(const RenderOptions& options) {
+    if (options.outputs.empty() && options.maps.out.empty())
+        throw InputError("nothing is to be written", "-o", "give a picture, or a photon map by --map-out");
+    if (progressive(options) && options.maps.used())
+        throw InputError("photon maps in files have a number of generations that is known before",
+                         options.seconds ? "--seconds" : "--target-error",
+                         "leave it out, or leave out --map-in, --map-out and --generations");
+}
+
 /// Estimates the seconds of writing from measurements on one core of 2023. Compression takes most of them.
 double writingForecast(const RenderOptions& options, const scene::Image& image) {
     constexpr double exrPixel = 6e-7, pngPixel = 3e-7;
@@ -69,10 +85,11 @@ double writingForecast(const RenderOptions& options, const scene::Image& image) 
     return perPixel * image.width * image.height;
 }
 
-void traceAll(Renderer& renderer, Steps& steps) {
-    const auto generations = static_cast<std::uint64_t>(renderer.generationsWanted());
-    steps.report("photons", 0, generations);
-    for (std::uint64_t done = 0; done < generations; ++done) {
+void traceAll(Renderer& renderer, LightMaps& maps, const scene::Scene& scene, Steps& steps) {
+    std::uint64_t done = maps.load(renderer, scene);
+    const std::uint64_t generations = maps.wanted(renderer);
+    steps.report("photons", done, generations);
+    for (; done < generations; ++done) {
         stopIfInterrupted();
         renderer.traceGeneration();
         steps.report("photons", done + 1, generations);
@@ -120,18 +137,23 @@ void tellReached(const RenderOptions& options, const Statistics& statistics, con
 
 void writeOutputs(const RenderOptions& options, const LayeredImage& image, const scene::Image& how, Steps& steps) {
     steps.report("writing", 0, 1);
-    for (const auto& output : options.outputs) writePicture(output, image, how);
+    writePictures(options.outputs, image, how);
     steps.report("writing", 1, 1);
 }
 
 }  // namespace
 
 void runRender(const RenderOptions& options) {
+    if (!options.frames.empty()) return runFrames(options);
+    if (options.skipExisting)
+        throw InputError("only frames can be skipped", "--skip-existing", "give --frames, or leave it out");
     const Clock::time_point start = Clock::now();
     requirePositive(options.seconds, "--seconds");
     requirePositive(options.targetError, "--target-error");
+    requireSomeOutput(options);
     checkOutputs(options);
-    const scene::Scene scene = sceneOf(options);
+    scene::Scene scene = sceneOf(options);
+    LightMaps maps(options.maps, scene);
 
     Steps steps(options.quiet);
     RendererOptions how{options.device, options.validate, steps.reporter()};
@@ -146,19 +168,16 @@ void runRender(const RenderOptions& options) {
     if (progressive(options))
         reached = traceProgressively(renderer, options, scene, start, steps);
     else
-        traceAll(renderer, steps);
+        traceAll(renderer, maps, scene, steps);
     stopIfInterrupted();
-    LayeredImage image = renderer.draw();
+    maps.save(renderer, scene);
+    LayeredImage image;
+    if (!options.outputs.empty()) image = renderer.draw();
     stopIfInterrupted();
     const Statistics statistics = renderer.statistics();
     for (const std::string& warning : std::span(statistics.warnings).subspan(told)) logWarning(warning);
 
-    image.attributes["scene"] = scene.source;
-    image.attributes["seed"] = std::to_string(scene.photonMap.seed);
-    image.attributes["software"] = std::string("lumulus ") + version;
-    image.attributes["device"] = statistics.device;
-    image.attributes["samples"] = std::to_string(statistics.photons);
-    noteGrids(image, statistics.clouds);
+    noteOrigin(image, scene, statistics);
 
     const Clock::time_point writing = Clock::now();
     writeOutputs(options, image, scene.image, steps);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/light_maps.h"
 #include "scene/quality.h"
 
 namespace lumulus::cli {
@@ -18,6 +19,9 @@ struct RenderOptions {
     std::optional<std::uint64_t> seed;
     std::optional<double> seconds;      ///< time of the whole run, instead of the scene's number of photons
     std::optional<double> targetError;  ///< relMSE of the photons' noise to stop at
+    std::string frames;                 ///< "A-B:STEP"; empty: one picture
+    bool skipExisting = false;          ///< frames whose files are whole
+    LightMapOptions maps;
     std::string device;
     std::string stats;  ///< file, "-" for stdout, empty for none
     bool quiet = false;

@@ -27,6 +27,30 @@ Json bricksJson(const BrickSummary& bricks) {
               {"majorants", bricks.majorantBytes}}}};
 }
 
+Json assetsJson(const std::vector<AssetSummary>& assets) {
+    Json result = Json::array();
+    for (const AssetSummary& asset : assets)
+        result.push_back({{"voxels", asset.voxels},
+                          {"level", asset.level},
+                          {"collectors", asset.collectors},
+                          {"instances", asset.instances}});
+    return result;
+}
+
+/// Seconds of the parts of the preparation, of all assets.
+Json preparationJson(const std::vector<AssetSummary>& assets) {
+    const auto sum = [&](double AssetSummary::*part) {
+        double seconds = 0.0;
+        for (const AssetSummary& asset : assets) seconds += asset.*part;
+        return seconds;
+    };
+    return {{"upload", sum(&AssetSummary::upload)},
+            {"majorants", sum(&AssetSummary::majorants)},
+            {"sampling", sum(&AssetSummary::sampling)},
+            {"tree", sum(&AssetSummary::tree)},
+            {"collectors", sum(&AssetSummary::collecting)}};
+}
+
 }  // namespace
 
 std::string statisticsJson(const Statistics& s, const std::optional<ProgressiveStatistics>& progressive,
@@ -51,6 +75,8 @@ std::string statisticsJson(const Statistics& s, const std::optional<ProgressiveS
           {"draw", s.drawSeconds},
           {"write", writeSeconds},
           {"total", totalSeconds}}},
+        {"preparation", preparationJson(s.assets)},
+        {"assets", assetsJson(s.assets)},
         {"photons", s.photons},
         {"generations", s.generations},
         {"events", s.events},

@@ -54,7 +54,11 @@ struct Collector {
 
 /// Seconds of each step of the preparation, for --stats and benchmarks.
 struct PreparationTimes {
-    double upload = 0.0, gradient = 0.0, sampling = 0.0, tree = 0.0, leaves = 0.0;
+    double upload = 0.0;     ///< density
+    double majorants = 0.0;  ///< with the bounds of the gradient
+    double sampling = 0.0;
+    double tree = 0.0;
+    double collectors = 0.0;  ///< with the collector of each voxel
 };
 
 /// What one density field needs once: prepared for photons and drawing, immutable, on the GPU once, shared by all
@@ -93,11 +97,12 @@ struct PrepareOptions {
     scene::Majorant majorant = scene::Majorant::automatic;
     double reducedExtinction = 0.0;  ///< σt'(1−g') at the field's maximum [1/m]
     std::uint32_t seed = 1;
-    bool keepBlocks = false;  ///< whether the asset keeps the majorants of blocks, for cloud::mergeGrids()
+    bool keepBlocks = false;          ///< whether the asset keeps the majorants of blocks, for cloud::mergeGrids()
+    Check check = stopIfInterrupted;  ///< asked between pieces of the work, by several threads at once
 };
 
 /// Steps 1 to 5 of the preparation: gradient, samples, kD-tree, leaf statistics, collectors. The volume must not
-/// be empty. Errors: Error where interrupted.
+/// be empty. Errors: what the check throws.
 Asset prepare(gpu::Context& context, const vdb::PlacedVolume& placed, const PrepareOptions& options);
 
 /// The same for a field in bricks, whose texels lie in `pool` already (makePool); `toWorld`: where the cloud has it.

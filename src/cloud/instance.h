@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cloud/asset.h"
+#include "cloud/voxel_shape.h"
 #include "medium/scattering_medium.h"
 #include "view/bounds.h"
 
@@ -29,6 +30,14 @@ struct Instance {
     glm::dvec3 middle() const { return toWorld(0.5 * glm::dvec3(asset->size)); }
     /// Edge of a cube of a voxel's volume [m].
     double voxelEdge() const { return std::cbrt(std::abs(glm::determinant(voxelToMetres))); }
+    /// Whether the edges of its voxels differ, as those of cloud-resolving simulations do.
+    bool isFlat() const { return hasFlatVoxels(voxelToMetres); }
+    /// Smallest width of a voxel seen from this place [m]: a picture changes from voxel to voxel across it.
+    double voxelWidth(const glm::dvec3& eye) const {
+        if (!isFlat()) return voxelEdge();
+        const glm::dvec3 away = middle() - eye;
+        return glm::length(away) > 0.5 * diagonal() ? smallestWidth(voxelToMetres, away) : shortestEdge(voxelToMetres);
+    }
     /// How much larger it is than its asset.
     double scale() const { return voxelEdge() / std::cbrt(asset->voxelVolume); }
     /// Metres from corner to opposite corner of the volume.

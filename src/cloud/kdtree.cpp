@@ -8,8 +8,6 @@
 #include <limits>
 #include <queue>
 
-#include "base/interrupt.h"
-
 namespace lumulus::cloud {
 
 namespace {
@@ -138,7 +136,7 @@ class Builder {
     }
 
     void splitLevel() {
-        stopIfInterrupted();
+        options_.check();
         std::vector<Split> splits(open_.size());
         tbb::parallel_for(std::size_t{0}, open_.size(), [&](std::size_t i) {
             const auto samples = samplesOf(open_[i]);
@@ -189,7 +187,7 @@ class Builder {
 
     void finalise() {
         for (std::size_t i = 0; i < done_.size(); ++i) {
-            stopIfInterrupted();
+            options_.check();
             for (Split slab = uncoveredSlab(done_[i]); slab.axis >= 0 && !full(); slab = uncoveredSlab(done_[i])) {
                 const auto [first, second] = divide(done_[i], slab, false);
                 const bool samplesFirst = slab.middle > 0;
@@ -226,7 +224,7 @@ class Builder {
         };
         for (std::size_t i = 0; i < done_.size(); ++i) push(i);
         while (!queue.empty() && !full()) {
-            stopIfInterrupted();
+            options_.check();
             const std::size_t i = queue.top().second;
             queue.pop();
             const LeafBox box = done_[i].box;
@@ -259,7 +257,8 @@ KdTree buildKdTree(std::vector<Sample> samples, const glm::ivec3& size, const Kd
     return Builder(std::move(samples), size, options).build();
 }
 
-BlockDensity::BlockDensity(std::span<const float> density, const glm::ivec3& size, float maximum, int scale)
+BlockDensity::BlockDensity(std::span<const float> density, const glm::ivec3& size, float maximum, int scale,
+                           const Check& check)
     : blocks_((size + shared::BLOCK_EDGE - 1) / shared::BLOCK_EDGE), size_(size), scale_(scale) {
     const glm::ivec3 table = blocks_ + 1;
     sums_.assign(
@@ -270,6 +269,7 @@ BlockDensity::BlockDensity(std::span<const float> density, const glm::ivec3& siz
                static_cast<std::size_t>(x);
     };
     tbb::parallel_for(0, size.z, shared::BLOCK_EDGE, [&](int zFirst) {
+        check();
         for (int z = zFirst; z < std::min(zFirst + shared::BLOCK_EDGE, size.z); ++z)
             for (int y = 0; y < size.y; ++y) {
                 const float* row = density.data() + (static_cast<std::size_t>(z) * static_cast<std::size_t>(size.y) +

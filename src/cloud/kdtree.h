@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/interrupt.h"
 #include "shared/cloud.h"
 
 namespace lumulus::cloud {
@@ -19,7 +20,9 @@ class BlockDensity {
   public:
     /// `density` holds size.x·size.y·size.z values, x fastest; means come out divided by `maximum`.
     /// Where a value stands for `scale` voxels along each axis, boxes count in those voxels.
-    BlockDensity(std::span<const float> density, const glm::ivec3& size, float maximum, int scale = 1);
+    /// Errors: what `check` throws, which several threads ask at once.
+    BlockDensity(std::span<const float> density, const glm::ivec3& size, float maximum, int scale = 1,
+                 const Check& check = stopIfInterrupted);
     /// Mean over the blocks that the box touches.
     double mean(const shared::LeafBox& box) const;
 
@@ -39,6 +42,7 @@ struct KdTreeOptions {
     double reducedExtinction = 0.0;   ///< σt'(1−g') at the maximum density [1/m]; 0: optical size does not count
     double opticalLimit = 1.0;        ///< a leaf whose reduced optical thickness is larger is split further
     const BlockDensity* density = nullptr;  ///< needed where reducedExtinction is not 0
+    Check check = stopIfInterrupted;        ///< asked between pieces of the work, by several threads at once
 };
 
 struct KdNode {

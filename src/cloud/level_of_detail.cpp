@@ -11,6 +11,9 @@ namespace {
 /// Voxels along the longest side that every level has at least.
 constexpr int fewestVoxels = 4;
 
+/// Optical thickness of a voxel of a coarse level at most.
+constexpr double thickestVoxel = 2.0;
+
 }  // namespace
 
 int levelOfDetail(int longestSide, double voxelPixels) {
@@ -18,6 +21,12 @@ int levelOfDetail(int longestSide, double voxelPixels) {
     while (level < coarsestLevel && voxelPixels * std::ldexp(1.0, level + 1) <= 1.0 &&
            (longestSide >> (level + 1)) >= fewestVoxels)
         ++level;
+    return level;
+}
+
+int levelOfThickness(double voxelThickness) {
+    int level = 0;
+    while (level < coarsestLevel && std::ldexp(voxelThickness, level + 1) <= thickestVoxel) ++level;
     return level;
 }
 

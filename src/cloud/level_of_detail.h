@@ -12,6 +12,10 @@ inline constexpr int coarsestLevel = 6;
 /// its nearest point: voxels are twice as large on each level, and no larger than a pixel; 0 is the field itself.
 int levelOfDetail(int longestSide, double voxelPixels);
 
+/// The coarsest level whose voxels light still crosses, where those of the field have this optical thickness at most:
+/// coarser ones have no rough surface that shades itself, and are too bright.
+int levelOfThickness(double voxelThickness);
+
 /// Collectors of a cloud that is `pixels` large in the picture: 30 + 0.4 pixels².
 int collectorsFor(double pixels);
 

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
@@ -20,6 +21,11 @@ namespace {
 constexpr double voxelsInCell = 6.0;
 /// 64 MiB of cells, and 32 MiB of bricks.
 constexpr double mostCells = 8.0 * 1024 * 1024, mostBricks = 8.0 * 1024 * 1024;
+/// Of each cloud, so that two that are far apart do not need all of them.
+constexpr double bricksOfEach = 256.0 * 1024;
+/// So many times as many cells as there would be if each cloud had cells for its own voxels: a speck beside clouds does
+/// not ask for cells of its size everywhere.
+constexpr double finerCells = 64.0;
 /// Room for the rounding of places to single precision, voxels, and of sums of majorants.
 constexpr double roundedVoxels = 1e-2;
 constexpr float slack = 1.0F + 1e-5F;
@@ -84,18 +90,80 @@ std::size_t placeIn(const glm::ivec3& extent, const glm::ivec3& at) {
            static_cast<std::size_t>(at.x);
 }
 
-/// How far it is from each empty cell of a brick to one that is not, or out of the brick: negative, as walks have it.
-void addDistances(std::span<glm::uvec2> cells) {
-    MajorantGrid brick;
-    brick.cells = glm::ivec3(MERGED_BRICK);
-    for (const glm::uvec2& cell : cells) brick.maxima.push_back(std::bit_cast<float>(cell.x));
-    const std::vector<float> values = majorantsAndDistances(brick);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (values[i] > 0.0F) continue;
+/// Which cells of a brick and of those around it have density: a bit each along x, in rows along y and z.
+using Rows = std::array<std::uint32_t, std::size_t{9} * MERGED_BRICK * MERGED_BRICK>;
+constexpr int rowsAcross = 3 * MERGED_BRICK;
+/// So far the bricks around one tell what is empty.
+constexpr int farthest = MERGED_BRICK;
+
+Rows occupiedAround(const MergedGrid& grid, const glm::ivec3& brick) {
+    Rows rows{};
+    for (int i = 0; i < 27; ++i) {
+        const glm::ivec3 beside(i % 3, i / 3 % 3, i / 9), at = brick + beside - 1;
+        if (glm::any(glm::lessThan(at, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(at, grid.bricks))) continue;
+        const std::uint32_t number = grid.numbers[placeIn(grid.bricks, at)];
+        if (number >= shared::EMPTY_BRICK) continue;
+        for (int cell = 0; cell < shared::MERGED_BRICK_CELLS; ++cell) {
+            const float value = std::bit_cast<float>(
+                grid.cells[number * shared::MERGED_BRICK_CELLS + static_cast<std::size_t>(cell)].x);
+            if (!(value > 0.0F)) continue;
+            const glm::ivec3 within(cell % MERGED_BRICK, cell / MERGED_BRICK % MERGED_BRICK,
+                                    cell / (MERGED_BRICK * MERGED_BRICK));
+            const glm::ivec3 place = beside * MERGED_BRICK + within;
+            rows[static_cast<std::size_t>(place.z * rowsAcross + place.y)] |= 1U << static_cast<unsigned>(place.x);
+        }
+    }
+    return rows;
+}
+
+/// Each cell and those that touch it.
+Rows grown(const Rows& rows) {
+    Rows along{}, result{};
+    for (int z = 0; z < rowsAcross; ++z)
+        for (int y = 0; y < rowsAcross; ++y)
+            for (int k = std::max(y - 1, 0); k <= std::min(y + 1, rowsAcross - 1); ++k) {
+                const std::uint32_t row = rows[static_cast<std::size_t>(z * rowsAcross + k)];
+                along[static_cast<std::size_t>(z * rowsAcross + y)] |= row | row << 1U | row >> 1U;
+            }
+    for (int z = 0; z < rowsAcross; ++z)
+        for (int y = 0; y < rowsAcross; ++y)
+            for (int k = std::max(z - 1, 0); k <= std::min(z + 1, rowsAcross - 1); ++k)
+                result[static_cast<std::size_t>(z * rowsAcross + y)] |=
+                    along[static_cast<std::size_t>(k * rowsAcross + y)];
+    return result;
+}
+
+/// Of each empty cell of a brick how far it is to one that is not, as far as the bricks around it tell.
+std::array<int, shared::MERGED_BRICK_CELLS> distancesIn(const MergedGrid& grid, const glm::ivec3& brick) {
+    std::array<int, shared::MERGED_BRICK_CELLS> distances{};
+    distances.fill(farthest + 1);
+    Rows rows = occupiedAround(grid, brick);
+    for (int distance = 0; distance <= farthest; ++distance) {
+        for (int cell = 0; cell < shared::MERGED_BRICK_CELLS; ++cell) {
+            const glm::ivec3 place = glm::ivec3(cell % MERGED_BRICK, cell / MERGED_BRICK % MERGED_BRICK,
+                                                cell / (MERGED_BRICK * MERGED_BRICK)) +
+                                     MERGED_BRICK;
+            int& known = distances[static_cast<std::size_t>(cell)];
+            const std::uint32_t row = rows[static_cast<std::size_t>(place.z * rowsAcross + place.y)];
+            if (known > farthest && (row >> static_cast<unsigned>(place.x) & 1U) != 0U) known = distance;
+        }
+        rows = grown(rows);
+    }
+    return distances;
+}
+
+/// Distances of the empty cells: negative, as walks have it.
+void addDistances(MergedGrid& grid) {
+    std::vector<std::array<int, shared::MERGED_BRICK_CELLS>> distances(grid.cells.size() / shared::MERGED_BRICK_CELLS);
+    tbb::parallel_for(std::size_t{0}, grid.numbers.size(), [&](std::size_t i) {
+        if (grid.numbers[i] >= shared::EMPTY_BRICK) return;
         const int n = static_cast<int>(i);
-        const glm::ivec3 at(n % MERGED_BRICK, n / MERGED_BRICK % MERGED_BRICK, n / (MERGED_BRICK * MERGED_BRICK));
-        const int outside = glm::compMin(glm::min(at, MERGED_BRICK - 1 - at)) + 1;
-        cells[i] = {std::bit_cast<std::uint32_t>(std::max(values[i], -static_cast<float>(outside))), 0U};
+        distances[grid.numbers[i]] = distancesIn(
+            grid, {n % grid.bricks.x, n / grid.bricks.x % grid.bricks.y, n / (grid.bricks.x * grid.bricks.y)});
+    });
+    for (std::size_t i = 0; i < grid.cells.size(); ++i) {
+        const int distance = distances[i / shared::MERGED_BRICK_CELLS][i % shared::MERGED_BRICK_CELLS];
+        if (distance > 0) grid.cells[i] = {std::bit_cast<std::uint32_t>(-static_cast<float>(distance)), 0U};
     }
 }
 
@@ -134,14 +202,21 @@ void finishBricks(MergedGrid& grid) {
 }  // namespace
 
 double mergedCellEdge(std::span<const MergedSource> clouds, const glm::dvec3& lower, const glm::dvec3& upper) {
-    double finest = std::numeric_limits<double>::infinity(), volume = 0.0;
+    double finest = std::numeric_limits<double>::infinity(), volume = 0.0, wanted = 0.0;
     for (const MergedSource& cloud : clouds) {
         const double voxel = std::abs(glm::determinant(cloud.voxelToMetres));
+        const double voxels = glm::compMul(glm::dvec3(cloud.asset->size));
         finest = std::min(finest, std::cbrt(voxel));
-        volume += voxel * glm::compMul(glm::dvec3(cloud.asset->size));
+        volume += voxel * voxels;
+        wanted += voxels / std::pow(voxelsInCell, 3);
     }
-    const double box = glm::compMul(upper - lower) / std::pow(MERGED_BRICK, 3);
-    return std::max({voxelsInCell * finest, std::cbrt(volume / mostCells), std::cbrt(box / mostBricks)});
+    double edge =
+        std::max({voxelsInCell * finest, std::cbrt(volume / (finerCells * wanted)), std::cbrt(volume / mostCells)});
+    const double most = std::min(mostBricks, bricksOfEach * static_cast<double>(clouds.size()));
+    // a flat box has one layer of bricks, however large they are
+    const auto bricks = [&] { return glm::compMul(glm::max(glm::ceil((upper - lower) / (edge * MERGED_BRICK)), 1.0)); };
+    while (bricks() > most) edge *= 1.1;
+    return edge;
 }
 
 MergedGrid mergeGrids(std::span<const MergedSource> clouds, const glm::dvec3& lower, const glm::dvec3& upper,
@@ -168,8 +243,7 @@ MergedGrid mergeGrids(std::span<const MergedSource> clouds, const glm::dvec3& lo
     }
     grid.cells.assign(std::size_t{bricks} * shared::MERGED_BRICK_CELLS, glm::uvec2(0U));
     fillCells(grid, entries);
-    for (std::size_t brick = 0; brick < bricks; ++brick)
-        addDistances(std::span(grid.cells).subspan(brick * shared::MERGED_BRICK_CELLS, shared::MERGED_BRICK_CELLS));
+    addDistances(grid);
     finishBricks(grid);
     return grid;
 }

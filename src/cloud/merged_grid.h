@@ -32,7 +32,7 @@ struct MergedGrid {
 };
 
 /// Edge of the cells [m] for these clouds: six voxels of the finest, more where there would be too many cells or bricks
-/// between `lower` and `upper`.
+/// between `lower` and `upper`, or where the finest is a speck beside the others.
 double mergedCellEdge(std::span<const MergedSource> clouds, const glm::dvec3& lower, const glm::dvec3& upper);
 
 /// Errors: none; a grid over nothing has one empty brick.

@@ -74,6 +74,30 @@ Blocks boundBlocks(gpu::Context& context, const DensityImages& images, const glm
     return blocks;
 }
 
+/// Voxels up to which a merged grid is given majorants of finer blocks.
+constexpr std::uint64_t finerUpTo = 1ULL << 24U;
+/// Edge of these, voxels.
+constexpr int fineEdge = 2;
+
+/// Majorants for cloud::mergeGrids(): of blocks so fine that those that reach over a cell hardly raise its majorant.
+MajorantGrid fineBlocks(gpu::Context& context, const DensityImages& images, const glm::ivec3& size) {
+    const gpu::Program<shared::BlockPush> majorant(context, "block_majorant", spirv::block_majorant_comp,
+                                                   {gpu::SpecConstant::of(23, fineEdge)});
+    const glm::ivec3 blocks = (size + fineEdge - 1) / fineEdge;
+    const auto total = static_cast<std::uint64_t>(blocks.x) * static_cast<std::uint64_t>(blocks.y) *
+                       static_cast<std::uint64_t>(blocks.z);
+    gpu::Buffer majorants(context, "fine majorants", total * sizeof(float), Memory::host);
+    gpu::Commands commands(context);
+    commands.begin();
+    commands.pass("majorant");
+    commands.dispatch(majorant, {{"density", images.density, Sampler::nearest}, {"Majorants", majorants}},
+                      shared::BlockPush{size, blocks, {}}, linearGroups(total, 64));
+    commands.submit();
+    commands.wait();
+    const auto found = majorants.mapped<float>().subspan(0, total);
+    return {blocks, glm::vec3(static_cast<float>(fineEdge)), {found.begin(), found.end()}};
+}
+
 gpu::Image indexCollectors(gpu::Context& context, const glm::ivec3& size, const gpu::Buffer& leafBuffer,
                            const std::vector<std::uint32_t>& numbers, std::size_t collectors) {
     const gpu::Program<shared::LeafPush> program(context, "leaf_index", spirv::leaf_index_comp);
@@ -94,21 +118,21 @@ gpu::Image indexCollectors(gpu::Context& context, const glm::ivec3& size, const 
 }  // namespace
 
 Asset prepare(gpu::Context& context, const vdb::PlacedVolume& placed, const PrepareOptions& options) {
-    StepWatch watch;
+    StepWatch watch(options.check);
     PreparationTimes times;
     const vdb::Volume& volume = *placed.volume;
     const glm::dmat3& voxelToMetres = placed.toWorld.linear;
-    const vdb::QuantisedVolume quantised = vdb::quantise(volume);
+    const vdb::QuantisedVolume quantised = vdb::quantise(volume, options.check);
     auto density = std::make_shared<const gpu::Image>(uploadDensity(context, quantised, volume.size));
     const gpu::Image none(context, "no bricks", glm::ivec3(1), VK_FORMAT_R32_UINT);
     const DensityImages images{*density, none};
     times.upload = watch.lap();
     const glm::mat3 toMetres = gradientToMetres(voxelToMetres);
     const Blocks blocks = boundBlocks(context, images, volume.size, toMetres);
-    times.gradient = watch.lap();
+    times.majorants = watch.lap();
     std::vector<Sample> samples = sampleGradient(context, images, volume.size, blocks, toMetres, options);
     times.sampling = watch.lap();
-    const BlockDensity blockDensity(volume.density, volume.size, volume.maximum);
+    const BlockDensity blockDensity(volume.density, volume.size, volume.maximum, 1, options.check);
     KdTree tree = makeTree(samples, volume.size, blockDensity, voxelToMetres, blocks, options);
     times.tree = watch.lap();
 
@@ -120,29 +144,35 @@ Asset prepare(gpu::Context& context, const vdb::PlacedVolume& placed, const Prep
     std::vector<Collector> collectors = makeCollectors(tree, statistics, numbers);
     gpu::Image index = indexCollectors(context, volume.size, leafBuffer, numbers, collectors.size());
 
+    times.collectors = watch.lap();
+
     const double mass = massOf(collectors);
     const MajorantGrid cells = majorantGrid(blocks.majorants, blocks.count, volume.size, majorantCell, mass);
     const MajorantGrid single = majorantGrid(blocks.majorants, blocks.count, volume.size, 0, mass);
     const bool local = isLocal(options.majorant, single);
     const MajorantGrid& grid = local ? cells : single;
-    times.leaves = watch.lap();
-    return Asset{
-        volume.size,
-        voxelToMetres,
-        std::abs(glm::determinant(voxelToMetres)),
-        quantised.format,
-        std::move(density),
-        std::nullopt,
-        std::move(index),
-        grid,
-        majorantImage(context, grid),
-        options.keepBlocks ? majorantGrid(blocks.majorants, blocks.count, volume.size, 1, mass) : MajorantGrid{},
-        cells,
-        local ? std::nullopt : std::optional(majorantImage(context, cells)),
-        std::move(samples),
-        std::move(tree),
-        std::move(collectors),
-        times};
+    const bool fine = static_cast<std::uint64_t>(quantised.texels.size()) <= finerUpTo;
+    MajorantGrid merged;
+    if (options.keepBlocks)
+        merged = fine ? fineBlocks(context, images, volume.size)
+                      : majorantGrid(blocks.majorants, blocks.count, volume.size, 1, mass);
+    times.majorants += watch.lap();
+    return Asset{volume.size,
+                 voxelToMetres,
+                 std::abs(glm::determinant(voxelToMetres)),
+                 quantised.format,
+                 std::move(density),
+                 std::nullopt,
+                 std::move(index),
+                 grid,
+                 majorantImage(context, grid),
+                 std::move(merged),
+                 cells,
+                 local ? std::nullopt : std::optional(majorantImage(context, cells)),
+                 std::move(samples),
+                 std::move(tree),
+                 std::move(collectors),
+                 times};
 }
 
 }  // namespace lumulus::cloud

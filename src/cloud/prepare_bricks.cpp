@@ -57,7 +57,7 @@ float gradientBound(const SparseVolume& volume, const glm::ivec3& brick, const g
 }
 
 /// The bricks with density and those around them.
-Blocks brickBlocks(const SparseVolume& volume, const glm::mat3& toMetres) {
+Blocks brickBlocks(const SparseVolume& volume, const glm::mat3& toMetres, const Check& check) {
     Blocks blocks;
     blocks.edge = SparseVolume::brickEdge;
     for (const vdb::LeafTable::Leaf& leaf : volume.leaves.leaves) {
@@ -77,7 +77,7 @@ Blocks brickBlocks(const SparseVolume& volume, const glm::mat3& toMetres) {
             blocks.majorants.push_back(i == 13 ? leaf.most / volume.maximum : 0.0F);
             blocks.gradientBounds.push_back(gradientBound(volume, at, toMetres));
         }
-        if ((&leaf - volume.leaves.leaves.data()) % 65536 == 0) stopIfInterrupted();
+        if ((&leaf - volume.leaves.leaves.data()) % 65536 == 0) check();
     }
     blocks.count = {static_cast<int>(blocks.places.size()), 1, 1};
     return blocks;
@@ -132,15 +132,15 @@ gpu::Image indexCollectors(gpu::Context& context, const SparseVolume& volume, co
 
 Asset prepareBricks(gpu::Context& context, const SparseVolume& volume, const vdb::Affine& toWorld,
                     std::shared_ptr<const gpu::Image> pool, const PrepareOptions& options) {
-    StepWatch watch;
+    StepWatch watch(options.check);
     PreparationTimes times;
     const glm::dmat3& voxelToMetres = toWorld.linear;
     gpu::Image bricks = makeBrickIndex(context, volume);
     const DensityImages images{*pool, bricks, true};
     times.upload = watch.lap();
     const glm::mat3 toMetres = gradientToMetres(voxelToMetres);
-    const Blocks blocks = brickBlocks(volume, toMetres);
-    times.gradient = watch.lap();
+    const Blocks blocks = brickBlocks(volume, toMetres, options.check);
+    times.majorants = watch.lap();
     std::vector<Sample> samples = sampleGradient(context, images, volume.size, blocks, toMetres, options);
     times.sampling = watch.lap();
     const CoarseDensity coarse = coarseDensity(volume);
@@ -155,12 +155,14 @@ Asset prepareBricks(gpu::Context& context, const SparseVolume& volume, const vdb
     std::vector<Collector> collectors = makeCollectors(tree, statistics, numbers);
     gpu::Image index = indexCollectors(context, volume, tree, numbers);
 
+    times.collectors = watch.lap();
+
     const double mass = massOf(collectors);
     const MajorantGrid cells = majorantGrid(volume, false, mass);
     const MajorantGrid single = majorantGrid(volume, true, mass);
     const bool local = isLocal(options.majorant, single);
     const MajorantGrid grid = local ? cells : single;
-    times.leaves = watch.lap();
+    times.majorants += watch.lap();
     return Asset{volume.size,
                  voxelToMetres,
                  std::abs(glm::determinant(voxelToMetres)),

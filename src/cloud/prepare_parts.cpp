@@ -105,6 +105,7 @@ KdTree makeTree(const std::vector<Sample>& samples, const glm::ivec3& size, cons
     tree.maxLeaves = options.preparation.maxLeaves;
     tree.reducedExtinction = options.reducedExtinction;
     tree.density = &density;
+    tree.check = options.check;
     return buildKdTree(samples, size, tree);
 }
 

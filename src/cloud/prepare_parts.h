@@ -10,11 +10,13 @@
 /// Steps of the preparation that dense fields and those in bricks share (inside cloud/ only).
 namespace lumulus::cloud {
 
-/// Times the steps of the preparation, and lets Ctrl-C end it between two of them.
+/// Times the steps of the preparation, and asks whether to go on between two of them.
 class StepWatch {
   public:
+    explicit StepWatch(const Check& check) : check_(check) {}
+
     double lap() {
-        stopIfInterrupted();
+        check_();
         const auto now = std::chrono::steady_clock::now();
         const double seconds = std::chrono::duration<double>(now - start_).count();
         start_ = now;
@@ -22,6 +24,7 @@ class StepWatch {
     }
 
   private:
+    const Check& check_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -19,18 +19,22 @@ namespace spirv {
 /// Fills the mass of each cell.
 LitCells findLitCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
                       const gpu::Image& mass) {
-    const gpu::Program<shared::LightFieldPush> program(context, "light_mass", spirv::light_mass_comp,
-                                                       {asset.sparseConstant()});
-    shared::LightFieldPush push{};
+    const gpu::Program<shared::LightMassPush> program(context, "light_mass", spirv::light_mass_comp,
+                                                      {asset.sparseConstant()});
+    const cloud::MajorantGrid& majorants = asset.cellImage ? asset.cells : asset.majorants;
+    shared::LightMassPush push{};
     push.size = asset.size;
     push.grid = grid.cells;
     push.edge = grid.edge;
+    push.perMajorant = 1.0F / majorants.cellSize;
+    push.majorantCells = majorants.cells;
     gpu::Commands commands(context);
     commands.begin();
     commands.dispatch(program,
                       {{"density", *asset.density, gpu::Sampler::linear},
                        {"bricks", asset.brickIndex(), gpu::Sampler::nearest},
-                       {"cellMass", mass}},
+                       {"cellMass", mass},
+                       {"majorants", asset.marchedCells()}},
                       push, gpu::linearGroups(grid.count(), 64));
     commands.submit();
     commands.wait();

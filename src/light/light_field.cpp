@@ -19,9 +19,8 @@ namespace spirv {
 }  // namespace spirv
 
 /// Photons of the map for each cell with density: as fine as the light changes near the surface, as coarse as the noise
-/// asks (docs/experiments/light-field-cells.md has the figures). Where there are few photons noise is the lesser evil,
-/// so that there are this many cells along the longest side at least.
-constexpr double photonsInCell = 16.0, fewestAlong = 32.0;
+/// asks (docs/experiments/light-field-cells.md has the figures).
+constexpr double photonsInCell = 16.0;
 /// 64 MiB each for the counts, the cells and the smoothed field.
 constexpr std::uint64_t maxCells = 1ULL << 22U;
 /// With a ring round them they fit into 2048 texels, the least that desktop devices have along a volume.
@@ -36,7 +35,7 @@ double occupiedVoxels(const cloud::Asset& cloud) {
 
 }  // namespace
 
-cloud::CellGrid lightGrid(const cloud::Asset& cloud, std::uint64_t photons) {
+cloud::CellGrid lightGrid(const cloud::Asset& cloud, std::uint64_t photons, double fewestAlong) {
     const int longest = glm::compMax(cloud.size);
     const double wanted = std::min(std::cbrt(photonsInCell * occupiedVoxels(cloud) / static_cast<double>(photons)),
                                    longest / fewestAlong);
@@ -50,13 +49,21 @@ cloud::CellGrid lightGrid(const cloud::Asset& cloud, std::uint64_t photons) {
     return grid;
 }
 
+cloud::CellGrid coarseLightGrid(const cloud::Asset& cloud, const cloud::CellGrid& fine) {
+    cloud::CellGrid grid;
+    grid.edge = 2 * fine.edge;
+    grid.cells = (cloud.size + grid.edge - 1) / grid.edge;
+    return grid;
+}
+
 LightCells::LightCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
                        const cloud::CellGrid& estimates)
     : LightCells(context, asset, std::make_shared<const CellLayout>(context, asset, grid), estimates,
                  asset.voxelToMetres, 0) {}
 
 LightCells::LightCells(gpu::Context& context, const cloud::Asset& asset, std::shared_ptr<const CellLayout> layout,
-                       const cloud::CellGrid& estimates, const glm::dmat3& voxelToMetres, std::uint32_t firstCollector)
+                       const cloud::CellGrid& estimates, const glm::dmat3& voxelToMetres, std::uint32_t firstCollector,
+                       bool coarse)
     : asset_(&asset),
       layout_(std::move(layout)),
       estimatorGrid_(estimates),
@@ -65,7 +72,7 @@ LightCells::LightCells(gpu::Context& context, const cloud::Asset& asset, std::sh
       countsProgram_(context, "light_counts", spirv::light_counts_comp,
                      {gpu::SpecConstant::of(0, grid().edge), asset.sparseConstant()}),
       cellsProgram_(context, "light_cells", spirv::light_cells_comp,
-                    {gpu::SpecConstant::of(0, grid().edge), asset.sparseConstant()}),
+                    {gpu::SpecConstant::of(0, grid().edge), gpu::SpecConstant::of(1, coarse), asset.sparseConstant()}),
       smoothProgram_(context, "light_smooth", spirv::light_smooth_comp),
       counts_(context, "light counts", grid().cells, VK_FORMAT_R32G32B32A32_SFLOAT),
       ownShare_(context, "own share", grid().cells, VK_FORMAT_R32_SFLOAT) {}

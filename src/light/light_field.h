@@ -10,8 +10,14 @@
 
 namespace lumulus::light {
 
+/// Cells along the longest side that there are at least, however few photons: noise is the lesser evil.
+inline constexpr double fewestLightCells = 32.0;
+
 /// Cells of the light field: the more photons in the whole map, the finer. Edges are powers of two.
-cloud::CellGrid lightGrid(const cloud::Asset& cloud, std::uint64_t photons);
+cloud::CellGrid lightGrid(const cloud::Asset& cloud, std::uint64_t photons, double fewestAlong = fewestLightCells);
+
+/// Twice as large cells, for pictures to be enlarged. Their radiance towards an eye is that of eight voxels.
+cloud::CellGrid coarseLightGrid(const cloud::Asset& cloud, const cloud::CellGrid& fine);
 
 /// What the photon map counted in the cells.
 struct CollisionEstimates {
@@ -30,9 +36,10 @@ class LightCells {
   public:
     /// Of an instance whose voxels have these edges in the world [m], and whose collectors begin with this number among
     /// those of all instances. The cells of `estimates` are those of the layout, which is of the asset, or finer.
-    /// `asset` must outlive it.
+    /// `asset` must outlive it. Where they are `coarse`, a view looks at eight voxels of each.
     LightCells(gpu::Context& context, const cloud::Asset& asset, std::shared_ptr<const CellLayout> layout,
-               const cloud::CellGrid& estimates, const glm::dmat3& voxelToMetres, std::uint32_t firstCollector);
+               const cloud::CellGrid& estimates, const glm::dmat3& voxelToMetres, std::uint32_t firstCollector,
+               bool coarse = false);
     /// The same of the only instance, with a layout of its own.
     LightCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
                const cloud::CellGrid& estimates);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cloud/voxel_shape.h"
+
 namespace lumulus::light {
 
 namespace {
@@ -29,18 +31,15 @@ glm::dmat3 texelToTexture(const ShadowGrid& grid) {
     return {1.0 / grid.size.x, 0, 0, 0, 1.0 / grid.size.y, 0, 0, 0, 1.0 / grid.size.z};
 }
 
-/// Edges of voxels that differ by more than this are flat: a cubic texel would hold many of them along the short edge.
-constexpr double flat = 1.1;
-
-bool isFlat(const glm::dmat3& voxelToMetres) {
-    const glm::dvec3 edges(glm::length(voxelToMetres[0]), glm::length(voxelToMetres[1]), glm::length(voxelToMetres[2]));
-    return std::max(edges.x, std::max(edges.y, edges.z)) > flat * std::min(edges.x, std::min(edges.y, edges.z));
+/// With its columns so many times as long.
+glm::dmat3 scaled(const glm::dmat3& matrix, const glm::dvec3& factors) {
+    return {matrix[0] * factors.x, matrix[1] * factors.y, matrix[2] * factors.z};
 }
 
 /// Columns of a sheared grid: two voxel axes, and the light from one layer of voxels to the next along the third, the
 /// one along which it crosses the most. Texels are as fine as the voxels, whatever their shape.
 ShadowGrid layeredGrid(const glm::dvec3& size, const glm::dmat3& voxelToMetres, const glm::dvec3& sunTravel,
-                       double most, int reduction) {
+                       double most, int reduction, const glm::dvec3& wider) {
     const glm::dvec3 travel = glm::inverse(voxelToMetres) * sunTravel;
     int along = 0;
     for (int axis = 1; axis < 3; ++axis)
@@ -62,8 +61,8 @@ ShadowGrid layeredGrid(const glm::dvec3& size, const glm::dmat3& voxelToMetres, 
     const double widest = std::max(extent.x, std::max(extent.y, extent.z)) / mostAcross;
     const double texel = reduction * std::max(1.0, std::max(coarsest, widest));
     ShadowGrid grid;
-    grid.size = glm::ivec3(glm::ceil(extent / texel)) + 1;
-    grid.gridToVoxel = columns * texel;
+    grid.size = glm::ivec3(glm::ceil(extent / (texel * wider))) + 1;
+    grid.gridToVoxel = scaled(columns, texel * wider);
     grid.originVoxel = origin;
     grid.spacing = texel * glm::length(voxelToMetres * layer);
     return grid;
@@ -72,9 +71,11 @@ ShadowGrid layeredGrid(const glm::dvec3& size, const glm::dmat3& voxelToMetres, 
 }  // namespace
 
 ShadowGrid makeShadowGrid(const glm::ivec3& voxels, const glm::dmat3& voxelToMetres, const glm::dvec3& sunTravel,
-                          double maxTexels, int reduction) {
-    const glm::dvec3 size(voxels);
-    if (isFlat(voxelToMetres)) return layeredGrid(size, voxelToMetres, sunTravel, maxTexels, reduction);
+                          double maxTexels, int reduction, int across) {
+    const glm::dvec3 size(voxels), wider(across, across, 1.0);
+    // a cubic texel would hold many flat voxels along their short edge
+    if (cloud::hasFlatVoxels(voxelToMetres))
+        return layeredGrid(size, voxelToMetres, sunTravel, maxTexels, reduction, wider);
     const glm::dmat3 frame = lightFrame(sunTravel);
     const glm::dmat3 voxelToLight = glm::transpose(frame) * voxelToMetres;
     glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
@@ -89,21 +90,23 @@ ShadowGrid makeShadowGrid(const glm::ivec3& voxels, const glm::dmat3& voxelToMet
     const double coarsest = std::cbrt(extent.x * extent.y * extent.z / maxTexels);
     const double widest = std::max(extent.x, std::max(extent.y, extent.z)) / mostAcross;
     grid.spacing = reduction * std::max(finest, std::max(coarsest, widest));
-    grid.size = glm::ivec3(glm::ceil(extent / grid.spacing)) + 1;
+    grid.size = glm::ivec3(glm::ceil(extent / (grid.spacing * wider))) + 1;
     const glm::dmat3 lightToVoxel = glm::inverse(voxelToLight);
-    grid.gridToVoxel = lightToVoxel * grid.spacing;
+    grid.gridToVoxel = scaled(lightToVoxel, grid.spacing * wider);
     grid.originVoxel = lightToVoxel * lower;
     return grid;
 }
 
-ShadowVolume::ShadowVolume(gpu::Context& context, const cloud::Asset& cloud, const glm::dmat3& voxelToMetres)
+ShadowVolume::ShadowVolume(gpu::Context& context, const cloud::Asset& cloud, const glm::dmat3& voxelToMetres,
+                           int across)
     : context_(context),
       cloud_(cloud),
       voxelToMetres_(voxelToMetres),
+      across_(across),
       program_(context, "shadow_volume", spirv::shadow_volume_comp, {cloud.sparseConstant()}) {}
 
 void ShadowVolume::lay(Filled& filled, const glm::dvec3& sunTravel, double extinction, int reduction) {
-    filled.grid = makeShadowGrid(cloud_.size, voxelToMetres_, sunTravel, maxTexels, reduction);
+    filled.grid = makeShadowGrid(cloud_.size, voxelToMetres_, sunTravel, maxTexels, reduction, across_);
     filled.step = static_cast<float>(extinction * filled.grid.spacing);
     filled.rows = 0;
     if (!filled.image || filled.image->extent() != filled.grid.size)

@@ -18,17 +18,18 @@ struct ShadowGrid {
 };
 
 /// A grid that covers a box of so many voxels, as fine as its voxels where that stays within `maxTexels`, or
-/// `reduction` times as coarse. Texels are cubes; where voxels are not, the grid is sheared along the light and has
-/// their shape.
+/// `reduction` times as coarse. Texels are cubes, or `across` times as wide across the light; where voxels are not
+/// cubes, the grid is sheared along the light and has their shape.
 ShadowGrid makeShadowGrid(const glm::ivec3& voxels, const glm::dmat3& voxelToMetres, const glm::dvec3& sunTravel,
-                          double maxTexels, int reduction = 1);
+                          double maxTexels, int reduction = 1, int across = 1);
 
 /// Optical depth towards the sun through the whole cloud, and no other. Made anew for each direction of the sun; not at
 /// all for a scene without one.
 class ShadowVolume {
   public:
-    /// `voxelToMetres`: edges of a voxel as they lie in the world, of an instance of the cloud.
-    ShadowVolume(gpu::Context& context, const cloud::Asset& cloud, const glm::dmat3& voxelToMetres);
+    /// `voxelToMetres`: edges of a voxel as they lie in the world, of an instance of the cloud. `across`: edge of a
+    /// texel across the light, over that along it.
+    ShadowVolume(gpu::Context& context, const cloud::Asset& cloud, const glm::dmat3& voxelToMetres, int across = 1);
     ShadowVolume(gpu::Context& context, const cloud::Asset& cloud)
         : ShadowVolume(context, cloud, cloud.voxelToMetres) {}
 
@@ -63,6 +64,7 @@ class ShadowVolume {
     gpu::Context& context_;
     const cloud::Asset& cloud_;
     const glm::dmat3 voxelToMetres_;
+    const int across_;
     gpu::Program<shared::ShadowVolumePush> program_;
     Filled shown_, next_;
 };

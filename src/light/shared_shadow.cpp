@@ -1,5 +1,6 @@
 #include "light/shared_shadow.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "gpu/groups.h"
@@ -13,17 +14,31 @@ namespace spirv {
 #include "spirv/light/shared_shadow.comp.h"
 }  // namespace spirv
 
-/// A sphere round the box of an instance.
-struct Ball {
-    glm::dvec3 middle;
-    double radius;
+/// Columns: two unit vectors across the light and the light itself.
+glm::dmat3 lightFrame(const glm::dvec3& travel) {
+    const glm::dvec3 helper = std::abs(travel.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 across = glm::normalize(glm::cross(helper, travel));
+    return {across, glm::cross(travel, across), travel};
+}
+
+/// The box round an instance's volume, by axes across the light and along it [m].
+struct LitBox {
+    glm::dvec3 lower, upper;
 };
 
+LitBox boxOf(const cloud::Instance& instance, const glm::dmat3& toLight) {
+    const glm::dvec3 middle = toLight * instance.middle();
+    const glm::dmat3 edges = toLight * instance.voxelToMetres;
+    // the interpolated density reaches half a voxel beyond the volume, the texels of a shadow volume one more
+    const glm::dvec3 half = 0.5 * glm::dvec3(instance.asset->size) + 2.0;
+    const glm::dvec3 reach = glm::abs(edges[0]) * half.x + glm::abs(edges[1]) * half.y + glm::abs(edges[2]) * half.z;
+    return {middle - reach, middle + reach};
+}
+
 /// Whether something of `occluder` may lie between a point of `shaded` and the sun.
-bool mayShade(const Ball& occluder, const Ball& shaded, const glm::dvec3& sunTravel) {
-    const glm::dvec3 apart = shaded.middle - occluder.middle;
-    const double along = glm::dot(apart, sunTravel), reach = occluder.radius + shaded.radius;
-    return along > -reach && glm::length(apart - along * sunTravel) < reach;
+bool mayShade(const LitBox& occluder, const LitBox& shaded) {
+    return occluder.lower.x < shaded.upper.x && occluder.upper.x > shaded.lower.x &&
+           occluder.lower.y < shaded.upper.y && occluder.upper.y > shaded.lower.y && occluder.lower.z < shaded.upper.z;
 }
 
 /// From texel numbers of the shaded instance's volume to texel coordinates of the occluder's.
@@ -35,22 +50,25 @@ shared::Occluder placeOf(const Shading& occluder, const Shading& shaded) {
     const glm::dvec3 apart = glm::inverse(b.voxelToMetres) * ((a.origin + a.offset) - (b.origin + b.offset));
     const glm::dmat3 voxelToTexel = glm::inverse(to.gridToVoxel);
     shared::Occluder place{};
-    place.texelToTexel = glm::mat3(voxelToTexel * voxelToVoxel * from.gridToVoxel);
-    place.offset = glm::vec3(voxelToTexel * (voxelToVoxel * from.originVoxel + apart - to.originVoxel) + 0.5);
+    const glm::dmat3 matrix = voxelToTexel * voxelToVoxel * from.gridToVoxel;
+    const glm::dvec3 offset = voxelToTexel * (voxelToVoxel * from.originVoxel + apart - to.originVoxel) + 0.5;
+    for (int row = 0; row < 3; ++row)
+        place.texelToTexel[row] = glm::vec4(glm::dvec4(matrix[0][row], matrix[1][row], matrix[2][row], offset[row]));
     return place;
 }
 
 }  // namespace
 
 Occluders findOccluders(std::span<const Shading> all, const glm::dvec3& sunTravel) {
-    std::vector<Ball> balls;
-    for (const Shading& one : all) balls.push_back({one.instance->middle(), 0.5 * one.instance->diagonal()});
+    const glm::dmat3 toLight = glm::transpose(lightFrame(sunTravel));
+    std::vector<LitBox> boxes;
+    for (const Shading& one : all) boxes.push_back(boxOf(*one.instance, toLight));
     Occluders found;
     for (std::size_t i = 0; i < all.size(); ++i) {
         found.first.push_back(static_cast<std::uint32_t>(found.numbers.size()));
         if (all[i].shadow == nullptr) continue;
         for (std::size_t j = 0; j < all.size(); ++j) {
-            if (all[j].shadow == nullptr || !mayShade(balls[j], balls[i], sunTravel)) continue;
+            if (j == i || all[j].shadow == nullptr || !mayShade(boxes[j], boxes[i])) continue;
             found.numbers.push_back(static_cast<std::uint32_t>(j));
             found.places.push_back(placeOf(all[j], all[i]));
         }
@@ -87,25 +105,27 @@ void SharedShadow::record(gpu::Commands& commands, std::span<const Shading> all,
     madeFor_ = keyOf(all);
     Occluders found = findOccluders(all, sunTravel);
     for (std::size_t i = 0; i < found.places.size(); ++i) {
-        found.places[i].origin = glm::vec3(own_->origin(found.numbers[i]));
-        found.places[i].size = glm::vec3(images[found.numbers[i]]->extent());
+        found.places[i].origin = glm::vec4(glm::vec3(own_->origin(found.numbers[i])), 0.0F);
+        found.places[i].size = glm::vec4(glm::vec3(images[found.numbers[i]]->extent()), 0.0F);
     }
-    if (found.places.empty()) return;
     occluders_.reset();
-    occluders_.emplace(gpu::filledBuffer(context_, "occluders", found.places));
+    occluders_.emplace(context_, "occluders", shared::OCCLUDER_TEXELS * std::max<std::size_t>(1, found.places.size()),
+                       VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Memory::device);
+    if (!found.places.empty()) gpu::upload(context_, *occluders_, found.places);
     own_->record(commands, images);
     commands.pass("shared shadow");
     for (std::size_t i = 0; i < all.size(); ++i) {
         const std::uint32_t first = found.first[i], count = found.first[i + 1] - first;
-        if (count == 0) continue;
+        if (all[i].shadow == nullptr) continue;
         const glm::ivec3 size = images[i]->extent();
-        const auto texels = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) *
-                            static_cast<std::uint64_t>(size.z);
+        const auto segments =
+            static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) *
+            static_cast<std::uint64_t>((size.z + shared::SHADOW_SEGMENT - 1) / shared::SHADOW_SEGMENT);
         commands.dispatch(program_,
                           {{"own", own_->image(), gpu::Sampler::linearClamp},
                            {"together", together_->image()},
-                           {"Occluders", *occluders_}},
-                          {size, together_->origin(i), first, count}, gpu::linearGroups(texels, 64));
+                           {"occluders", *occluders_}},
+                          {size, together_->origin(i), first, count}, gpu::linearGroups(segments, 64));
         commands.barrier("shared shadow volume");
     }
 }

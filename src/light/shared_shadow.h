@@ -48,8 +48,8 @@ class SharedShadow {
     std::vector<glm::dvec4> madeFor_;  ///< version and place of each instance
 };
 
-/// For each shaded instance, the ones of which something may lie between it and the sun, itself first, and how their
-/// volumes are found. `atlas` origins and sizes of the volumes are filled in by the caller of the GPU.
+/// For each shaded instance, the others of which something may lie between it and the sun, and how their volumes are
+/// found. `atlas` origins and sizes of the volumes are filled in by the caller of the GPU.
 struct Occluders {
     std::vector<std::uint32_t> first;  ///< of each instance, and the end
     std::vector<std::uint32_t> numbers;

@@ -1,5 +1,9 @@
 #include "medium/fog_media.h"
 
+#include <cmath>
+
+#include "scene/fog_bounds.h"
+
 namespace lumulus::fog {
 
 namespace {
@@ -10,10 +14,18 @@ int kindOf(scene::MediumKind kind) {
             return shared::MEDIUM_EXPONENTIAL;
         case scene::MediumKind::sphere:
             return shared::MEDIUM_SPHERE;
+        case scene::MediumKind::ellipsoid:
+            return shared::MEDIUM_ELLIPSOID;
+        case scene::MediumKind::box:
+            return shared::MEDIUM_BOX;
         case scene::MediumKind::homogeneous:
             break;
     }
     return shared::MEDIUM_HOMOGENEOUS;
+}
+
+float orEndless(double metres) {
+    return std::isfinite(metres) ? static_cast<float>(metres) : shared::ENDLESS;
 }
 
 }  // namespace
@@ -32,6 +44,11 @@ std::vector<shared::FogMedium> mediaAround(const scene::Fog& fog, const glm::dve
         medium.eyeHeight = static_cast<float>(glm::dot(eye - from.offset, from.direction));
         medium.center = glm::vec3(from.center - eye);
         medium.radius = static_cast<float>(from.radius);
+        medium.halfSize = glm::vec3(from.halfSize);
+        medium.aboveBottom = orEndless(eye.y - from.bottom);
+        medium.belowTop = orEndless(from.top - eye.y);
+        medium.thickness = orEndless(from.top - from.bottom);
+        medium.bounded = scene::isBounded(from) ? 1 : 0;
         media.push_back(medium);
     }
     return media;

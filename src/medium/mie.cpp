@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <deque>
-#include <mutex>
 #include <numbers>
 
 #include "medium/mie_sphere.h"
@@ -134,34 +132,6 @@ constexpr std::array<std::array<double, 4>, 3> toRgb{
     {{10.10, -143.93, 205.85, 138.43}, {-13.65, 114.73, 92.38, -4.23}, {165.14, 66.37, -45.35, -0.93}}};
 constexpr std::array luminances{0.2126, 0.7152, 0.0722};
 
-MieColours makeColours(double radius, double variance) {
-    std::vector<TabulatedPhase> spectrum;
-    for (std::size_t i = 0; i < wavelengths.size(); ++i)
-        spectrum.push_back(miePhase(radius, variance, wavelengths[i], waterIndices[i]));
-    const std::vector<double>& angles = spectrum.front().angles();  // the finest
-    MieColours colours;
-    std::vector<double> mean(angles.size(), 0.0);
-    for (std::size_t channel = 0; channel < toRgb.size(); ++channel) {
-        double white = 0.0;
-        for (const double weight : toRgb[channel]) white += weight;
-        std::vector<double> values(angles.size());
-        for (std::size_t i = 0; i < angles.size(); ++i) {
-            double sum = 0.0, least = spectrum.front().values()[i];
-            for (std::size_t k = 0; k < spectrum.size(); ++k) {
-                const double value = spectrum[k].evaluate(angles[i]);
-                sum += toRgb[channel][k] * value;
-                least = std::min(least, value);
-            }
-            // colours outside of Rec. 709 stay above 0
-            values[i] = std::max(sum / white, 0.1 * least);
-            mean[i] += luminances[channel] * white * values[i];
-        }
-        colours.channels.emplace_back(angles, std::move(values));
-    }
-    colours.mean.emplace_back(angles, std::move(mean));
-    return colours;
-}
-
 }  // namespace
 
 TabulatedPhase miePhase(double effectiveRadius, double effectiveVariance, double wavelength, double index) {
@@ -187,23 +157,31 @@ TabulatedPhase miePhase(double effectiveRadius, double effectiveVariance, double
     return {std::move(angles), std::move(values)};
 }
 
-std::shared_ptr<const MieColours> mieColours(double effectiveRadius, double effectiveVariance) {
-    struct Known {
-        double radius, variance;
-        std::shared_ptr<const MieColours> colours;
-    };
-    static std::mutex mutex;
-    static std::deque<Known> known;  // the last few: a scene asks for the same ones several times
-    constexpr std::size_t kept = 8;
-    {
-        const std::scoped_lock lock(mutex);
-        for (const Known& one : known)
-            if (one.radius == effectiveRadius && one.variance == effectiveVariance) return one.colours;
+MieColours mieColours(double effectiveRadius, double effectiveVariance) {
+    std::vector<TabulatedPhase> spectrum;
+    for (std::size_t i = 0; i < wavelengths.size(); ++i)
+        spectrum.push_back(miePhase(effectiveRadius, effectiveVariance, wavelengths[i], waterIndices[i]));
+    const std::vector<double>& angles = spectrum.front().angles();  // the finest
+    MieColours colours;
+    std::vector<double> mean(angles.size(), 0.0);
+    for (std::size_t channel = 0; channel < toRgb.size(); ++channel) {
+        double white = 0.0;
+        for (const double weight : toRgb[channel]) white += weight;
+        std::vector<double> values(angles.size());
+        for (std::size_t i = 0; i < angles.size(); ++i) {
+            double sum = 0.0, least = spectrum.front().values()[i];
+            for (std::size_t k = 0; k < spectrum.size(); ++k) {
+                const double value = spectrum[k].evaluate(angles[i]);
+                sum += toRgb[channel][k] * value;
+                least = std::min(least, value);
+            }
+            // colours outside of Rec. 709 stay above 0
+            values[i] = std::max(sum / white, 0.1 * least);
+            mean[i] += luminances[channel] * white * values[i];
+        }
+        colours.channels.emplace_back(angles, std::move(values));
     }
-    auto colours = std::make_shared<const MieColours>(makeColours(effectiveRadius, effectiveVariance));
-    const std::scoped_lock lock(mutex);
-    known.push_back({effectiveRadius, effectiveVariance, colours});
-    if (known.size() > kept) known.pop_front();
+    colours.mean.emplace_back(angles, std::move(mean));
     return colours;
 }
 

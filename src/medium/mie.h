@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <vector>
 
 #include "medium/tabulated_phase.h"
@@ -27,7 +26,8 @@ struct MieColours {
     std::vector<TabulatedPhase> mean;  ///< one: their mean by the luminance of sunlight
 };
 
-/// Phase functions of red, green and blue of droplets; those of the last few radii and variances are kept. Any thread.
-std::shared_ptr<const MieColours> mieColours(double effectiveRadius, double effectiveVariance);
+/// Phase functions of red, green and blue of droplets. `effectiveRadius` in µm. Takes tenths of a second on all
+/// threads.
+MieColours mieColours(double effectiveRadius, double effectiveVariance);
 
 }  // namespace lumulus::phase

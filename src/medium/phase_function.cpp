@@ -122,7 +122,7 @@ PhaseFunction::PhaseFunction(const scene::Phase& phase) : model_(phase.model) {
             break;
         case scene::PhaseModel::mie:
             requireDroplet(phase);
-            table_ = mieColours(phase.effectiveRadius, phase.effectiveVariance)->mean.front();
+            table_ = mieColours(phase.effectiveRadius, phase.effectiveVariance).mean.front();
             lobeWidth_ = table_->lobeWidth();
             break;
         case scene::PhaseModel::table:
@@ -209,13 +209,13 @@ std::vector<double> PhaseFunction::panels(double begin, double end) const {
     return ends;
 }
 
-std::vector<PhaseFunction> colourChannels(const scene::Phase& phase) {
-    std::vector<PhaseFunction> channels;
-    if (phase.model != scene::PhaseModel::mie) return channels;
+PhaseColours phaseColours(const scene::Phase& phase) {
+    if (phase.model != scene::PhaseModel::mie) return {PhaseFunction(phase), {}};
     requireDroplet(phase);
-    const auto colours = mieColours(phase.effectiveRadius, phase.effectiveVariance);
-    for (const TabulatedPhase& channel : colours->channels) channels.emplace_back(channel);
-    return channels;
+    MieColours colours = mieColours(phase.effectiveRadius, phase.effectiveVariance);
+    PhaseColours result{PhaseFunction(std::move(colours.mean.front())), {}};
+    for (TabulatedPhase& channel : colours.channels) result.channels.emplace_back(std::move(channel));
+    return result;
 }
 
 }  // namespace lumulus::phase

@@ -70,7 +70,13 @@ class PhaseFunction {
     double lobeWidth_ = 0.25;
 };
 
-/// The phase functions of red, green and blue where they differ; none where all are the same.
-std::vector<PhaseFunction> colourChannels(const scene::Phase& phase);
+/// A phase function for the eye.
+struct PhaseColours {
+    PhaseFunction mean;                   ///< by luminance
+    std::vector<PhaseFunction> channels;  ///< of red, green and blue where they differ; none where all are the mean
+};
+
+/// Errors: as those of PhaseFunction.
+PhaseColours phaseColours(const scene::Phase& phase);
 
 }  // namespace lumulus::phase

@@ -69,7 +69,8 @@ void addAxisTable(ScatteringTables& tables, const scene::Phase& phase, int bands
 ScatteringTables makeScatteringTables(const scene::Phase& phase, double cutRadians, const glm::dvec3& albedo, int bands,
                                       double sunAngularDiameterRadians) {
     assert(cutRadians >= 0.0 && cutRadians < std::numbers::pi && bands >= 1 && sunAngularDiameterRadians >= 0.0);
-    const PhaseFunction function(phase);
+    PhaseColours colours = phaseColours(phase);
+    const PhaseFunction& function = colours.mean;
     const double discRadius = 0.5 * sunAngularDiameterRadians;
     const std::vector<double> moments = function.moments(std::max(bands, 2));
     const std::vector<double> forward = function.forwardMoments(cutRadians, bands);
@@ -86,7 +87,7 @@ ScatteringTables makeScatteringTables(const scene::Phase& phase, double cutRadia
         tables.inverseCdf = makeInverseCdf(function, cutRadians);
     }
     tables.angleScale = static_cast<float>(function.lobeWidth());
-    std::vector<PhaseFunction> channels = colourChannels(phase);
+    std::vector<PhaseFunction>& channels = colours.channels;
     tables.coloured = !channels.empty();
     if (channels.empty()) channels.push_back(function);
     tables.phaseTable = makePhaseTable(channels, static_cast<double>(tables.angleScale), discRadius);

@@ -4,15 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 #include <limits>
+#include <numeric>
+#include <unordered_map>
 
 namespace lumulus::query {
 
 namespace {
 
-constexpr int edge = 8;            // cells of a brick along each axis
-constexpr int corners = edge + 1;  // values along each axis
-constexpr std::size_t valuesOfBrick = corners * corners * corners;
+constexpr int edge = vdb::SparseVolume::brickEdge;    // cells of a brick along each axis
+constexpr int corners = vdb::SparseVolume::slotEdge;  // values along each axis
+constexpr int nodeEdge = vdb::SparseVolume::nodeEdge;
+constexpr std::size_t nodeEntries = vdb::SparseVolume::nodeEntries;
+constexpr std::size_t valuesOfBrick = vdb::SparseVolume::slotTexels;
 constexpr float steps = 65535.0F;      // of a 16-bit value
 constexpr float gauss = 0.288675135F;  // 1/(2√3): distance of Gauss's two points from the middle of an interval of 1
 
@@ -59,25 +64,60 @@ struct Corners {
     }
 };
 
+/// The 9³ values from a corner on, zero beyond the volume. Returns the largest.
+float readCorners(const vdb::Volume& volume, const glm::ivec3& corner, std::span<float, valuesOfBrick> to) {
+    float largest = 0.0F;
+    std::size_t place = 0;
+    for (int z = 0; z < corners; ++z)
+        for (int y = 0; y < corners; ++y)
+            for (int x = 0; x < corners; ++x, ++place) {
+                const glm::ivec3 voxel = corner + glm::ivec3(x, y, z);
+                const bool inside = glm::all(glm::lessThan(voxel, volume.size));
+                to[place] = inside ? volume.density[volume.index(voxel.x, voxel.y, voxel.z)] : 0.0F;
+                largest = std::max(largest, to[place]);
+            }
+    return largest;
+}
+
+glm::ivec3 bricksOf(const glm::ivec3& size) {
+    return glm::max((size + edge - 1) / edge, glm::ivec3(1));
+}
+
+glm::ivec3 nodesOf(const glm::ivec3& bricks) {
+    return (bricks + nodeEdge - 1) / nodeEdge;
+}
+
+std::size_t numberOf(const glm::ivec3& at, const glm::ivec3& extent) {
+    return static_cast<std::size_t>(at.x) +
+           static_cast<std::size_t>(extent.x) *
+               (static_cast<std::size_t>(at.y) + static_cast<std::size_t>(extent.y) * static_cast<std::size_t>(at.z));
+}
+
 }  // namespace
 
-BrickField::BrickField(const vdb::Volume& volume, const Check& check) : size_(volume.size) {
-    count_ = glm::max((size_ - 1 + edge - 1) / edge, glm::ivec3(1));
-    const auto layer = static_cast<std::size_t>(count_.x) * static_cast<std::size_t>(count_.y);
-    bricks_.resize(layer * static_cast<std::size_t>(count_.z));
-    std::vector<std::vector<std::uint16_t>> layers(static_cast<std::size_t>(count_.z));
-    tbb::parallel_for(0, count_.z, [&](int z) {
+BrickField::BrickField(const vdb::Volume& volume, const Check& check) : size_(volume.size), count_(bricksOf(size_)) {
+    const glm::ivec3 nodes = nodesOf(count_);
+    const std::size_t layer = nodeEntries * static_cast<std::size_t>(nodes.x) * static_cast<std::size_t>(nodes.y);
+    nodes_.resize(layer / nodeEntries * static_cast<std::size_t>(nodes.z));
+    std::iota(nodes_.begin(), nodes_.end(), 0U);
+    bricks_.resize(nodes_.size() * nodeEntries);
+    std::vector<std::vector<std::uint16_t>> layers(static_cast<std::size_t>(nodes.z));
+    tbb::parallel_for(0, nodes.z, [&](int z) {
         check();
         std::vector<std::uint16_t>& values = layers[static_cast<std::size_t>(z)];
-        std::uint16_t one[valuesOfBrick];
-        Brick* brick = &bricks_[layer * static_cast<std::size_t>(z)];
-        for (int y = 0; y < count_.y; ++y)
-            for (int x = 0; x < count_.x; ++x, ++brick) {
-                fill(volume, glm::ivec3(x, y, z) * edge, *brick, one);
-                if (!(brick->unit > 0.0F)) continue;
-                brick->values = static_cast<std::uint32_t>(values.size() / valuesOfBrick);
-                values.insert(values.end(), one, one + valuesOfBrick);
-            }
+        float densities[valuesOfBrick];
+        glm::ivec3 at(0, 0, nodeEdge * z);
+        for (; at.z < std::min(nodeEdge * (z + 1), count_.z); ++at.z)
+            for (at.y = 0; at.y < count_.y; ++at.y)
+                for (at.x = 0; at.x < count_.x; ++at.x) {
+                    const float largest = readCorners(volume, edge * at, densities);
+                    if (!(largest > 0.0F)) continue;
+                    Brick& brick = bricks_[entryOf(at)];
+                    brick.step = largest / steps;
+                    brick.values = static_cast<std::uint32_t>(values.size() / valuesOfBrick);
+                    for (const float density : densities)
+                        values.push_back(static_cast<std::uint16_t>(std::lround(density / largest * steps)));
+                }
     });
     std::size_t total = 0;
     for (const auto& values : layers) total += values.size();
@@ -90,32 +130,63 @@ BrickField::BrickField(const vdb::Volume& volume, const Check& check) : size_(vo
     }
 }
 
-void BrickField::fill(const vdb::Volume& volume, const glm::ivec3& corner, Brick& brick, std::uint16_t* values) const {
-    float densities[valuesOfBrick];
-    float largest = 0.0F;
-    float* to = densities;
-    for (int z = 0; z < corners; ++z)
-        for (int y = 0; y < corners; ++y)
-            for (int x = 0; x < corners; ++x, ++to) {
-                const glm::ivec3 voxel = corner + glm::ivec3(x, y, z);
-                const bool inside = voxel.x < size_.x && voxel.y < size_.y && voxel.z < size_.z;
-                *to = inside ? volume.density[volume.index(voxel.x, voxel.y, voxel.z)] : 0.0F;
-                largest = std::max(largest, *to);
-            }
-    brick.unit = largest / steps;
-    if (!(brick.unit > 0.0F)) return;
-    for (std::size_t i = 0; i < valuesOfBrick; ++i)
-        values[i] = static_cast<std::uint16_t>(std::lround(densities[i] / largest * steps));
+BrickField::BrickField(const BrickIndex& index, const SlotReader& read, const Check& check)
+    : size_(index.size), count_(bricksOf(size_)), nodes_(index.nodes.begin(), index.nodes.end()) {
+    bricks_.reserve(index.entries.size());
+    std::unordered_map<std::uint32_t, std::uint32_t> known;  // values of a place of the pool
+    std::vector<std::uint32_t> places;
+    for (const vdb::BrickEntry& entry : index.entries) {
+        const glm::vec2 range = glm::unpackHalf2x16(entry.range);
+        Brick brick{0, range.x, std::max(range.y, 0.0F) / steps, vdb::levelOf(entry)};
+        if (brick.step > 0.0F) {
+            const std::uint32_t place = vdb::slotPlace(vdb::slotOf(entry.place));
+            const auto [found, isNew] = known.emplace(place, static_cast<std::uint32_t>(places.size()));
+            if (isNew) places.push_back(place);
+            brick.values = found->second;
+        }
+        bricks_.push_back(brick);
+    }
+    pool_.resize(places.size() * valuesOfBrick);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size(), 4096), [&](const auto& range) {
+        check();
+        float texels[valuesOfBrick];
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            read(places[i], std::span<float, valuesOfBrick>(texels));
+            for (std::size_t k = 0; k < valuesOfBrick; ++k)
+                pool_[valuesOfBrick * i + k] = static_cast<std::uint16_t>(std::lround(texels[k] * steps));
+        }
+    });
+}
+
+BrickField::BrickField(vdb::SparseVolume& volume, const Check& check) {
+    const std::vector<std::byte> texels = vdb::allTexels(volume, check);
+    const auto read = [&](std::uint32_t place, std::span<float, valuesOfBrick> to) {
+        const glm::uvec3 slot = vdb::slotOf(place);
+        const auto width = static_cast<std::size_t>(volume.poolWidth);
+        const std::size_t first = valuesOfBrick * (slot.x + width * (slot.y + width * slot.z) - volume.firstSlot);
+        for (std::size_t i = 0; i < valuesOfBrick; ++i) to[i] = vdb::texelValue(texels, first + i, volume.format);
+    };
+    *this = BrickField({volume.size, volume.nodes, volume.entries}, read, check);
+}
+
+std::size_t BrickField::entryOf(const glm::ivec3& brick) const {
+    const glm::ivec3 within = brick % nodeEdge;
+    return nodeEntries * nodes_[numberOf(brick / nodeEdge, nodesOf(count_))] + numberOf(within, glm::ivec3(nodeEdge));
 }
 
 std::uint64_t BrickField::bytes() const {
-    return bricks_.size() * sizeof(Brick) + pool_.size() * sizeof(std::uint16_t);
+    return nodes_.size() * sizeof(std::uint32_t) + bricks_.size() * sizeof(Brick) +
+           pool_.size() * sizeof(std::uint16_t);
 }
 
-double BrickField::brickIntegral(const Brick& brick, const glm::dvec3& start, const glm::dvec3& velocity,
-                                 double length) const {
+double BrickField::brickIntegral(const glm::ivec3& number, const VoxelLine& line, double length) const {
+    const Brick& brick = bricks_[entryOf(number)];
+    const double constant = length * static_cast<double>(brick.low);
+    if (!(brick.step > 0.0F)) return constant;
     const std::uint16_t* values = &pool_[valuesOfBrick * brick.values];
-    const glm::vec3 origin(start), v(velocity);
+    const double unit = std::exp2(-brick.level);  // of a voxel, in texels
+    const glm::dvec3 group(edge * ((number >> brick.level) << brick.level));
+    const glm::vec3 origin(unit * (line.start - group)), v(unit * line.velocity);
     Planes<glm::vec3> planes(origin, v);
     const auto last = static_cast<float>(length);
     double sum = 0.0;
@@ -129,7 +200,7 @@ double BrickField::brickIntegral(const Brick& brick, const glm::dvec3& start, co
         sum += static_cast<double>(span * (at.at(inCell - aside) + at.at(inCell + aside)));
         t = end;
     }
-    return 0.5 * sum * static_cast<double>(brick.unit);
+    return 0.5 * sum * static_cast<double>(brick.step) + constant;
 }
 
 double BrickField::integral(const VoxelLine& line, double begin, double end) const {
@@ -153,13 +224,7 @@ double BrickField::integral(const VoxelLine& line, double begin, double end) con
         const double next = std::clamp(planes.take(), t, length);
         const glm::dvec3 middle = start + 0.5 * (t + next) * line.velocity;
         const glm::ivec3 number = glm::clamp(glm::ivec3(glm::floor(middle / double(edge))), glm::ivec3(0), count_ - 1);
-        const auto index = (static_cast<std::size_t>(number.z) * static_cast<std::size_t>(count_.y) +
-                            static_cast<std::size_t>(number.y)) *
-                               static_cast<std::size_t>(count_.x) +
-                           static_cast<std::size_t>(number.x);
-        const Brick& brick = bricks_[index];
-        if (brick.unit > 0.0F)
-            sum += brickIntegral(brick, start + t * line.velocity - glm::dvec3(number * edge), line.velocity, next - t);
+        sum += brickIntegral(number, {start + t * line.velocity, line.velocity}, next - t);
         t = next;
     }
     return sum;

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "base/interrupt.h"
+#include "vdb/sparse_volume.h"
 #include "vdb/volume.h"
 
 namespace lumulus::query {
@@ -15,14 +19,30 @@ struct VoxelLine {
     glm::dvec3 velocity{0.0};
 };
 
+/// The index of a field in bricks, as vdb::SparseVolume has it.
+struct BrickIndex {
+    glm::ivec3 size{0};                        ///< voxels
+    std::span<const std::uint32_t> nodes;      ///< of each 4³ bricks, x fastest
+    std::span<const vdb::BrickEntry> entries;  ///< 64 for each node
+};
+
+/// Gives the 9³ texels (0 to 1, x fastest) of the slot that lies at a place of the pool (vdb::slotPlace).
+using SlotReader = std::function<void(std::uint32_t place, std::span<float, vdb::SparseVolume::slotTexels> texels)>;
+
 /// A density field for integrals along lines: trilinear between the centres of voxels, as every renderer here sees it.
 /// The field is cut into bricks of 8³ cells between voxel centres; each holds the 9³ values at their corners as 16-bit
-/// numbers, in units of 1/65535 of its largest value, and a brick without density holds none.
+/// numbers between its least and its largest value. A brick of one value holds none. Bricks of a coarser level l share
+/// values that are 2^l voxels apart.
 class BrickField {
   public:
     BrickField() = default;
     /// `volume` is as its loader made it: its outermost voxels are zero. Errors: what `check` throws.
     explicit BrickField(const vdb::Volume& volume, const Check& check = stopIfInterrupted);
+    /// A field that is in bricks already. Errors: what `read` and `check` throw.
+    BrickField(const BrickIndex& index, const SlotReader& read, const Check& check = stopIfInterrupted);
+    /// The same with the texels of `volume`, which are made here; the density is of the volume's maximum. Errors: those
+    /// of reading leaves.
+    explicit BrickField(vdb::SparseVolume& volume, const Check& check = stopIfInterrupted);
 
     const glm::ivec3& size() const { return size_; }  ///< voxels
     std::uint64_t bytes() const;
@@ -32,17 +52,22 @@ class BrickField {
     double integral(const VoxelLine& line, double begin, double end) const;
 
   private:
+    /// The density is low + step · value.
     struct Brick {
         std::uint32_t values = 0;  ///< number of its values in the pool
-        float unit = 0.0F;         ///< density of one step; 0: nothing is in the brick
+        float low = 0.0F;
+        float step = 0.0F;  ///< 0: no values, the density is `low`
+        int level = 0;
     };
 
-    void fill(const vdb::Volume& volume, const glm::ivec3& corner, Brick& brick, std::uint16_t* values) const;
-    double brickIntegral(const Brick& brick, const glm::dvec3& start, const glm::dvec3& velocity, double length) const;
+    std::size_t entryOf(const glm::ivec3& brick) const;
+    /// Over a part of the line within one brick; the line's coordinates count from the middle of voxel 0.
+    double brickIntegral(const glm::ivec3& number, const VoxelLine& line, double length) const;
 
     glm::ivec3 size_{0};
-    glm::ivec3 count_{0};  ///< bricks along x, y, z
-    std::vector<Brick> bricks_;
+    glm::ivec3 count_{0};               ///< bricks along x, y, z
+    std::vector<std::uint32_t> nodes_;  ///< number of the node of each 4³ bricks; 0 is that of empty ones
+    std::vector<Brick> bricks_;         ///< 64 for each node
     std::vector<std::uint16_t> pool_;
 };
 

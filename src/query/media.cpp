@@ -50,15 +50,23 @@ Passage Media::along(const Way& way) const {
     return passage;
 }
 
-Media mediaOf(const scene::Scene& scene, const CloudVolumes& volumes, const Check& check) {
+Media mediaOf(const scene::Scene& scene, CloudVolumes volumes, const Check& check) {
     std::vector<std::shared_ptr<const BrickField>> fields;
-    for (const vdb::Volume& volume : volumes.volumes)
+    std::vector<double> units;  // densities of bricks are of the field's maximum
+    for (vdb::SparseVolume& volume : volumes.bricks) {
         fields.push_back(std::make_shared<const BrickField>(volume, check));
+        units.push_back(static_cast<double>(volume.maximum));
+        volume = {};
+    }
+    if (!volumes.isSparse())
+        for (const vdb::Volume& volume : volumes.volumes)
+            fields.push_back(std::make_shared<const BrickField>(volume, check));
+    units.resize(fields.size(), 1.0);
     std::vector<PlacedField> placed;
     for (std::size_t i = 0; i < volumes.clouds.size(); ++i) {
         const CloudVolumes::Cloud& cloud = volumes.clouds[i];
         placed.push_back({fields[cloud.volume], cloud.toWorld.linear, cloud.toWorld.translation,
-                          scene.clouds[i].extinction * scene.clouds[i].densityScale});
+                          scene.clouds[i].extinction * scene.clouds[i].densityScale * units[cloud.volume]});
     }
     return {Clouds(std::move(placed)), scene.fog, scene.ground ? std::optional(scene.ground->height) : std::nullopt};
 }

@@ -47,7 +47,7 @@ struct Media {
 };
 
 /// The media of a scene. `volumes` are those of loadClouds. Errors: what `check` throws.
-Media mediaOf(const scene::Scene& scene, const CloudVolumes& volumes, const Check& check = stopIfInterrupted);
+Media mediaOf(const scene::Scene& scene, CloudVolumes volumes, const Check& check = stopIfInterrupted);
 
 /// One passage for each segment, in their order. The threads of oneTBB share the work; their number changes no bit.
 /// Errors: what `check` throws, which is asked on any thread.

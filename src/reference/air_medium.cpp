@@ -26,7 +26,7 @@ AirMedium hillaire() {
     air.ozone = perKm * Four(0.000085, 0.001881, 0.00065, 0.00065);
     air.aerosolG = 0.8;
     air.toRgb = {{0.0, 0.0, 185.23}, {0.0, 189.23, 0.0}, {210.45, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-    air.channels = {2, 1, 0, 0};
+    air.fromRgb = {{0.0, 0.0, 1.0, 1.0}, {0.0, 1.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
     return air;
 }
 
@@ -53,9 +53,7 @@ AirMedium AirMedium::of(const scene::Sky& sky) {
 }
 
 Four AirMedium::lightOf(const glm::dvec3& rgb) const {
-    glm::dmat3 colours(0.0);  // of light that is 1 where a channel counts
-    for (int i = 0; i < 4; ++i) colours[channels[i]] += toRgb[i];
-    return spread(glm::inverse(colours) * rgb);
+    return spread(glm::inverse(toRgb * fromRgb) * rgb);
 }
 
 }  // namespace lumulus::reference

@@ -43,8 +43,9 @@ struct AirMedium {
 
     /// Rec. 709 in W/m² of sunlight above the air, times each wavelength's share.
     glm::dmat4x3 toRgb{0.0};
-    /// The channel of an RGB triple that counts at each wavelength.
-    glm::ivec4 channels{2, 1, 1, 0};
+    /// What is given in RGB, at the wavelengths: 440 nm has B, 520 nm G, 640 nm R, and 560 nm three quarters of G and a
+    /// quarter of R.
+    glm::dmat3x4 fromRgb{{0.0, 0.0, 0.25, 1.0}, {0.0, 1.0, 0.75, 0.0}, {1.0, 0.0, 0.0, 0.0}};
 
     /// The medium of `sky`: molecules by Bodhaine 1999, aerosol by its depth and Ångström exponent with an albedo of
     /// 0.92, ozone by its column; or that of Hillaire 2020, whose 440, 550 and 680 nm stand for blue, green and red
@@ -59,9 +60,7 @@ struct AirMedium {
         return parts.molecules * molecules + parts.aerosol * aerosol + parts.ozone * ozone;
     }
     /// A reflectance given in RGB.
-    Four spread(const glm::dvec3& rgb) const {
-        return {rgb[channels.x], rgb[channels.y], rgb[channels.z], rgb[channels.w]};
-    }
+    Four spread(const glm::dvec3& rgb) const { return fromRgb * rgb; }
     /// Light that has this colour, W/m² or W/(m² sr) in Rec. 709; parts may be negative.
     Four lightOf(const glm::dvec3& rgb) const;
 };

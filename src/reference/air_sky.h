@@ -10,15 +10,15 @@
 namespace lumulus::reference {
 
 /// What lies behind the air of an atmosphere: the sun, whose light counts as 1 at each wavelength above the air, and
-/// nothing else. It has the functions of `Environment`, at four wavelengths. All light is per sunlight above the air;
-/// `rgb` makes W·m⁻² of it: where the scene's `sun.irradiance` is not that of the sun at its mean distance, each
-/// channel is scaled by their ratio.
+/// the night sky of 1.9e-4 cd/m² where the sun has that of its mean distance. It has the functions of `Environment`, at
+/// four wavelengths. All light is per sunlight above the air; `rgb` makes W·m⁻² of it: where the scene's
+/// `sun.irradiance` is not that of the sun at its mean distance, each channel is scaled by their ratio.
 class AirSky {
   public:
     explicit AirSky(const scene::Scene& scene);
 
-    Four radiance(const glm::dvec3& /*direction*/) const { return Four(0.0); }
-    Four relativeRadiance(const glm::dvec3& /*direction*/) const { return Four(0.0); }
+    Four radiance(const glm::dvec3& /*direction*/) const { return night_; }
+    Four relativeRadiance(const glm::dvec3& /*direction*/) const { return night_; }
     glm::dvec3 unit() const { return glm::dvec3(1.0); }
 
     bool aimed() const { return false; }
@@ -43,6 +43,7 @@ class AirSky {
     AirMedium air_;
     SunDisc sun_;
     bool sunny_;
+    Four night_{0.0};
     glm::dvec3 scale_{1.0}, unscale_{1.0};
 };
 

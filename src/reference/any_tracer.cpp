@@ -1,22 +1,43 @@
 #include "reference/any_tracer.h"
 
+#include <cmath>
+
 namespace lumulus::reference {
 namespace {
 
 std::variant<PathTracer, AirTracer> tracerOf(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes,
-                                             Majorant majorant, const glm::dvec3& eye) {
-    if (scene.sky.model == scene::SkyModel::atmosphere) return AirTracer(scene, volumes, majorant, eye);
-    return PathTracer(scene, volumes, majorant, eye);
+                                             Majorant majorant) {
+    if (scene.sky.model == scene::SkyModel::atmosphere) return AirTracer(scene, volumes, majorant);
+    return PathTracer(scene, volumes, majorant);
+}
+
+/// The scene under its moon alone. Its night sky is that of a sun as weak as the moon, which is as good as none.
+scene::Scene moonlit(scene::Scene scene) {
+    constexpr double sunMagnitude = -26.74;
+    const double angle = scene.moon.phaseAngle;
+    const double magnitude = -12.73 + 0.026 * angle + 4e-9 * angle * angle * angle * angle;  // Allen
+    scene.sun.directionTo = scene.moon.directionTo;
+    scene.sun.irradiance *= std::pow(10.0, 0.4 * (sunMagnitude - magnitude));
+    scene.sun.limbDarkening = false;
+    return scene;
 }
 
 }  // namespace
 
-AnyTracer::AnyTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
-                     const glm::dvec3& eye)
-    : tracer_(tracerOf(scene, volumes, majorant, eye)) {}
+AnyTracer::AnyTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant)
+    : tracer_(tracerOf(scene, volumes, majorant)) {
+    if (scene.moon.shines && scene.sky.model == scene::SkyModel::atmosphere)
+        moon_.emplace(moonlit(scene), volumes, majorant);
+}
 
 PathSample AnyTracer::trace(const Ray& ray, Random& random) const {
-    return std::visit([&](const auto& tracer) { return tracer.trace(ray, random); }, tracer_);
+    PathSample sample = std::visit([&](const auto& tracer) { return tracer.trace(ray, random); }, tracer_);
+    if (!moon_) return sample;
+    const PathSample moonlight = moon_->trace(ray, random);
+    sample.radiance += moonlight.radiance;
+    sample.passed += moonlight.passed;
+    sample.lost = sample.lost || moonlight.lost;
+    return sample;
 }
 
 RayIntegrals AnyTracer::integrate(const Ray& ray) const {

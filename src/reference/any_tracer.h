@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "reference/tracer.h"
@@ -7,11 +8,11 @@
 namespace lumulus::reference {
 
 /// The path tracer that a scene needs: of four wavelengths where its sky is an atmosphere, else of three channels.
+/// Light of a moon has paths of its own, as of another sun; its disc is not drawn.
 class AnyTracer {
   public:
     /// As BasicPathTracer.
-    AnyTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
-              const glm::dvec3& eye);
+    AnyTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant);
 
     PathSample trace(const Ray& ray, Random& random) const;
     RayIntegrals integrate(const Ray& ray) const;
@@ -27,6 +28,7 @@ class AnyTracer {
 
   private:
     std::variant<PathTracer, AirTracer> tracer_;
+    std::optional<AirTracer> moon_;
 };
 
 }  // namespace lumulus::reference

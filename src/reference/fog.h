@@ -3,31 +3,29 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <optional>
-#include <vector>
 
-#include "reference/haze_collision.h"
-#include "reference/medium.h"
-#include "reference/phase.h"
-#include "reference/random.h"
-#include "scene/fog.h"
-#include "view/camera.h"
+#include "reference/fog_media.h"
 
 namespace lumulus::reference {
 
-/// The fog of a scene: all media together, up to `sky_distance` from the eye. Free paths are exact: the first collision
-/// of each medium is found by the inverse of its integral, and the nearest one counts.
+/// The fog of a scene without air. Free paths are exact.
 ///
 /// Where extinction differs between channels, a free path is drawn for one of them, chosen by the throughput, and its
 /// density is the mean over that choice (Veach 1997, the balance heuristic): the sum of a throughput's channels never
 /// grows, whatever the coefficients.
 class Fog {
   public:
-    Fog(const scene::Fog& fog, const glm::dvec3& eye);
+    explicit Fog(const scene::Fog& fog);
 
     bool empty() const { return media_.empty(); }
+    bool hasFog() const { return !empty(); }
 
     /// RGB transmittance from the ray's origin to `metres` (infinity is allowed).
     glm::dvec3 transmittance(const Ray& ray, double metres) const;
+
+    /// The same of what counts as a thing of its own and not as part of the sky: here all of it.
+    glm::dvec3 fogTransmittance(const Ray& ray, double metres) const { return transmittance(ray, metres); }
+    bool isFog(std::size_t /*medium*/) const { return true; }
 
     /// The first collision of light of this throughput before `limit` metres, if there is one.
     std::optional<HazeCollision> collide(const Ray& ray, double limit, const glm::dvec3& throughput,
@@ -46,19 +44,7 @@ class Fog {
     const PhaseFunction& phase(std::size_t medium) const { return media_[medium].phase; }
 
   private:
-    struct Part {
-        scene::FogMedium medium;
-        glm::dvec3 extinction;  ///< 1/m at ϱ = 1
-        PhaseFunction phase;
-    };
-
-    Interval reach(const Ray& ray) const;
-    glm::dvec3 opticalDepth(const Ray& ray, double metres) const;
-    glm::dvec3 relativeTransmittance(const Ray& ray, double metres, const glm::dvec3& throughput) const;
-
-    std::vector<Part> media_;
-    glm::dvec3 eye_;
-    double skyDistance_;
+    FogMedia<glm::dvec3> media_;
 };
 
 }  // namespace lumulus::reference

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/fog_bounds.h"
+
 namespace lumulus::reference {
 namespace {
 
@@ -19,16 +21,51 @@ double meanFallOff(double x) {
 
 }  // namespace
 
-FogDensity::FogDensity(const scene::FogMedium& medium, const Ray& ray, const Interval& part)
+FogDensity::FogDensity(const scene::FogMedium& medium, const Ray& ray, const Interval& part,
+                       const std::optional<double>& planet)
     : kind_(medium.kind), part_(part) {
-    if (kind_ == scene::MediumKind::exponential) enterExponential(medium, ray);
+    if (kind_ == scene::MediumKind::exponential) enterExponential(medium, ray, planet);
     if (kind_ == scene::MediumKind::sphere) enterSphere(medium, ray);
+    if (kind_ == scene::MediumKind::ellipsoid) enterEllipsoid(medium, ray);
+    if (kind_ == scene::MediumKind::box) enterBox(medium, ray);
 }
 
-void FogDensity::enterExponential(const scene::FogMedium& medium, const Ray& ray) {
+void FogDensity::enterExponential(const scene::FogMedium& medium, const Ray& ray, const std::optional<double>& planet) {
+    if (planet && scene::isLevel(medium) && medium.falloff > 0.0 && part_.begin < part_.end) {
+        const double upwards = medium.direction.y > 0.0 ? 1.0 : -1.0;
+        shell_.emplace(upwards * medium.falloff, medium.offset.y, *planet, ray, part_);
+        return;
+    }
     const glm::dvec3 start = ray.origin + part_.begin * ray.direction;
     exponent_ = medium.falloff * glm::dot(start - medium.offset, medium.direction);
     slope_ = medium.falloff * glm::dot(ray.direction, medium.direction);
+}
+
+/// Leaves of the part what lies between two places of the ray.
+void FogDensity::cut(double begin, double end) {
+    part_.begin = std::max(part_.begin, begin);
+    part_.end = std::max(part_.begin, std::min(part_.end, end));
+}
+
+/// In coordinates in which the ellipsoid is the unit sphere.
+void FogDensity::enterEllipsoid(const scene::FogMedium& medium, const Ray& ray) {
+    const glm::dvec3 toCentre = (medium.center - ray.origin) / medium.halfSize, along = ray.direction / medium.halfSize;
+    const double speed = glm::length(along);
+    const double closest = glm::dot(toCentre, along) / speed;
+    const double distance = glm::length(glm::cross(toCentre, along)) / speed;
+    const double half = distance < 1.0 ? std::sqrt((1.0 - distance) * (1.0 + distance)) : 0.0;
+    cut((closest - half) / speed, (closest + half) / speed);
+}
+
+void FogDensity::enterBox(const scene::FogMedium& medium, const Ray& ray) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const double toCentre = medium.center[axis] - ray.origin[axis], half = medium.halfSize[axis];
+        const double speed = std::abs(ray.direction[axis]), middle = toCentre / ray.direction[axis];
+        if (speed > 0.0)
+            cut(middle - half / speed, middle + half / speed);
+        else if (std::abs(toCentre) > half)
+            cut(part_.begin, part_.begin);
+    }
 }
 
 void FogDensity::enterSphere(const scene::FogMedium& medium, const Ray& ray) {
@@ -38,25 +75,21 @@ void FogDensity::enterSphere(const scene::FogMedium& medium, const Ray& ray) {
     // by the cross product: the difference of squares loses all digits far from the sphere
     const double distance = glm::length(glm::cross(toCentre, ray.direction));
     halfChord_ = distance < radius_ ? std::sqrt((radius_ - distance) * (radius_ + distance)) : 0.0;
-    part_.begin = std::max(part_.begin, closest_ - halfChord_);
-    part_.end = std::max(part_.begin, std::min(part_.end, closest_ + halfChord_));
+    cut(closest_ - halfChord_, closest_ + halfChord_);
 }
 
 double FogDensity::pathTo(double metres) const {
     const double length = std::min(metres, part_.end) - part_.begin;
     if (!(length > 0.0)) return 0.0;
-    switch (kind_) {
-        case scene::MediumKind::homogeneous:
-            return length;
-        case scene::MediumKind::exponential:
-            return std::min(longestPath, exponentialPath(length));
-        case scene::MediumKind::sphere:
-            break;
-    }
-    return spherePath(length);
+    double path = length;
+    if (kind_ == scene::MediumKind::exponential)
+        path = shell_ ? shell_->pathTo(part_.begin + length) : exponentialPath(length);
+    if (kind_ == scene::MediumKind::sphere) path = spherePath(length);
+    return std::min(longestPath, path);
 }
 
 double FogDensity::metresTo(double path) const {
+    if (shell_) return std::max(part_.begin, shell_->metresTo(path));
     double length = path;
     if (kind_ == scene::MediumKind::exponential) length = exponentialLength(path);
     if (kind_ == scene::MediumKind::sphere) length = sphereLength(path);
@@ -66,6 +99,7 @@ double FogDensity::metresTo(double path) const {
 
 /// From the denser end, so that no factor overflows where the integral does not.
 double FogDensity::exponentialPath(double length) const {
+    if (!std::isfinite(length)) return slope_ > 0.0 ? std::exp(-exponent_) / slope_ : longestPath;
     const double rise = slope_ * length;
     return std::exp(-(exponent_ + std::min(0.0, rise))) * length * meanFallOff(std::abs(rise));
 }

@@ -15,7 +15,7 @@ std::vector<scene::Surface> surfacesOf(const scene::Scene& scene) {
     below.albedo = ground->albedo;
     below.emission = glm::dvec3(0.0);
     below.kind = scene::SurfaceKind::plane;
-    below.position = {0.0, ground->height, 0.0};
+    below.position = {ground->foot.x, ground->height, ground->foot.y};
     below.normal = {0.0, 1.0, 0.0};
     if (scene.sky.model == scene::SkyModel::atmosphere) {
         below.kind = scene::SurfaceKind::sphere;

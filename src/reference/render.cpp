@@ -9,6 +9,7 @@
 #include "reference/ground.h"
 #include "scene/ephemeris.h"
 #include "scene/phase_table_file.h"
+#include "view/ground.h"
 
 namespace lumulus::reference {
 namespace {
@@ -40,11 +41,12 @@ void addCamera(Fingerprint& print, const Camera& camera) {
 }
 
 void addFog(Fingerprint& print, const scene::Fog& fog) {
-    print.add(fog.skyDistance).add(static_cast<int>(fog.inscattering));
+    print.add(static_cast<int>(fog.inscattering));
     for (const scene::FogMedium& medium : fog.media) {
         print.add(medium.kind).add(medium.g).add(medium.falloff).add(medium.radius);
-        for (const glm::dvec3& v :
-             {medium.scattering, medium.absorption, medium.emission, medium.direction, medium.offset, medium.center}) {
+        print.add(medium.bottom).add(medium.top);
+        for (const glm::dvec3& v : {medium.scattering, medium.absorption, medium.emission, medium.direction,
+                                    medium.offset, medium.center, medium.halfSize}) {
             addVector(print, v);
         }
     }
@@ -82,6 +84,10 @@ std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::Pl
     for (const scene::Surface& surface : surfacesOf(scene)) addSurface(print, surface);
     if (scene.sun.limbDarkening) print.add(1);
     if (scene.sky.model == scene::SkyModel::atmosphere) addAir(print, scene.sky);
+    if (scene.moon.shines) {
+        addVector(print, scene.moon.directionTo);
+        print.add(scene.moon.phaseAngle);
+    }
     if (scene.sky.model == scene::SkyModel::map) addMap(print, scene.sky);
     if (!scene.image.background) print.add(scene.image.background);
     return print.value();
@@ -92,14 +98,14 @@ std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::Pl
 Renderer::Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
                    std::uint64_t seed)
     : camera_(makeCamera(scene.camera, scene.image, boundsOf(volumes))),
-      tracer_(scene, volumes, majorant, camera_.position),
+      tracer_(groundedScene(scene, boundsOf(volumes)), volumes, majorant),
       skyUnit_(tracer_.skyUnit()),
       discUnit_(tracer_.discUnit()),
       background_(scene.image.background),
       discCover_(camera_, scene.sun.refraction ? scene::apparentDirection(scene.sun) : tracer_.sun().direction(),
                  tracer_.sunny() ? tracer_.sun().radius() : 0.0),
       seed_(seed),
-      fingerprint_(fingerprintOf(scene, volumes, camera_, majorant, seed)) {
+      fingerprint_(fingerprintOf(groundedScene(scene, boundsOf(volumes)), volumes, camera_, majorant, seed)) {
     film_.width = scene.image.width;
     film_.height = scene.image.height;
     pass_.resize(static_cast<std::size_t>(film_.width) * static_cast<std::size_t>(film_.height));

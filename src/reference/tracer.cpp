@@ -7,8 +7,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "base/error.h"
 #include "reference/ground.h"
+#include "scene/fog_bounds.h"
 
 namespace lumulus::reference {
 namespace {
@@ -16,8 +16,8 @@ namespace {
 /// Collisions after which a path counts as lost, far more than any sane scene needs.
 constexpr int collisionLimit = 100'000'000;
 
-/// Collisions in fog after which a path counts as lost. Fog may reach to the sky and absorb nothing. The lost light is
-/// a share of some 1e-3 where visibility is a hundredth of the distance to the sky, and more in denser fog.
+/// Collisions after which a path through fog counts as lost. Layers may be so thick, without absorption, that no light
+/// comes through.
 constexpr int fogCollisionLimit = 100'000;
 
 /// Product of throughput, phase function and transmittance [1/sr] below which a shadow ray plays Russian roulette: few
@@ -34,16 +34,15 @@ double sumOf(const Four& v) {
     return v.x + v.y + v.z + v.w;
 }
 
-Fog hazeOf(const scene::Scene& scene, const Environment&, const glm::dvec3& eye) {
-    return {scene.fog, eye};
+Fog hazeOf(const scene::Scene& scene, const Environment&) {
+    return Fog(scene.fog);
 }
 
-Air hazeOf(const scene::Scene& scene, const AirSky& sky, const glm::dvec3&) {
-    if (!scene.fog.media.empty()) {
-        throw InputError("the reference has no fog in an atmosphere", "fog.media",
-                         "leave out the fog, or write sky.model = \"constant\"");
-    }
-    return {sky.air(), groundOf(scene)->height};
+Air hazeOf(const scene::Scene& scene, const AirSky& sky) {
+    const double ground = groundOf(scene)->height;
+    const auto coefficient = [&](const glm::dvec3& rgb) { return sky.albedo(rgb); };
+    const auto emission = [&](const glm::dvec3& rgb) { return sky.emission(rgb); };
+    return {sky.air(), ground, FogMedia<Four>(scene.fog, coefficient, emission, ground), groundOf(scene)->foot};
 }
 
 /// Russian roulette with this chance of going on; false where the path ends.
@@ -60,13 +59,14 @@ bool survives(Light& throughput, double chance, Random& random) {
 
 template <typename Light>
 BasicPathTracer<Light>::BasicPathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes,
-                                        Majorant majorant, const glm::dvec3& eye)
+                                        Majorant majorant)
     : environment_(scene),
       clouds_(scene.clouds, volumes, majorant),
-      haze_(hazeOf(scene, environment_, eye)),
+      haze_(hazeOf(scene, environment_)),
       surfaces_(surfacesOf(scene)),
       lamps_(scene.surfaces),
       inscattering_(scene.fog.inscattering) {
+    scene::requireBoundedFog(scene);
     const PhaseFunction* phase = clouds_.narrowestPhase();
     if (environment_.sunny() && phase != nullptr)
         aureole_ = Aureole::of(*phase, environment_.sun().direction(), environment_.sun().radius());
@@ -306,7 +306,7 @@ bool BasicPathTracer<Light>::step(Path& path, Found& found, std::vector<Path>& b
         }
         return false;
     }
-    if (vertex.place == Place::eye) found.haze = event.place == Place::haze;
+    if (vertex.place == Place::eye) found.air = event.place == Place::haze && !haze_.isFog(event.index);
     if (event.place == Place::surface) found.radiance += throughput * emissionAt(vertex, event);
     arrive(vertex, event);
     if (event.place == Place::cloud) ++collisions;
@@ -326,7 +326,7 @@ bool BasicPathTracer<Light>::step(Path& path, Found& found, std::vector<Path>& b
 template <typename Light>
 PathSample BasicPathTracer<Light>::sampleOf(const Found& found) const {
     const glm::dvec3 radiance = environment_.rgb(found.radiance);
-    if (std::is_same_v<Haze, Air> && found.haze) return {glm::dvec3(0.0), radiance};
+    if (found.air) return {glm::dvec3(0.0), radiance};
     return {radiance, environment_.rgb(found.passed)};
 }
 
@@ -337,8 +337,7 @@ PathSample BasicPathTracer<Light>::trace(const Ray& ray, Random& random) const {
     path.vertex.ray = ray;
     path.vertex.voxels = clouds_.raysOf(ray);
     std::vector<Path> branches;
-    const bool fogged = std::is_same_v<Haze, Fog> && !haze_.empty();
-    const int limit = fogged ? fogCollisionLimit : collisionLimit;
+    const int limit = haze_.hasFog() ? fogCollisionLimit : collisionLimit;
     for (int collisions = 0; collisions < limit; ++collisions) {
         if (step(path, found, branches, random)) continue;
         if (branches.empty()) return sampleOf(found);
@@ -362,9 +361,7 @@ RayIntegrals BasicPathTracer<Light>::integrate(const Ray& ray) const {
         result.clear = 0.0;
     }
     result.transmittance = glm::dvec3(result.clear);
-    if constexpr (std::is_same_v<Haze, Fog>) {
-        if (!haze_.empty()) result.transmittance *= haze_.transmittance(ray, endless);
-    }
+    if (haze_.hasFog()) result.transmittance *= haze_.fogTransmittance(ray, endless);
     return result;
 }
 

@@ -35,8 +35,8 @@ struct RayIntegrals {
     double distance = 0.0;          ///< to clouds and surfaces: over 1 − clear, their mean distance. Metres
 };
 
-/// What light is made of: three channels of a sky without air, in which there may be fog, or four wavelengths in the
-/// air of an atmosphere.
+/// What light is made of: three channels of a sky without air, or four wavelengths in the air of an atmosphere. There
+/// may be fog in both.
 template <typename Light>
 struct WorldOf;
 
@@ -52,7 +52,7 @@ struct WorldOf<Four> {
     using Haze = Air;
 };
 
-/// The unbiased path tracer of clouds, haze (analytic fog or the air of an atmosphere) and opaque surfaces under the
+/// The unbiased path tracer of clouds, haze (analytic fog, and the air of an atmosphere) and opaque surfaces under the
 /// sun and the sky: delta tracking in the clouds and exact free paths in the haze, whichever is nearer, next-event
 /// estimation to the sun's disc at each collision (ratio tracking through the clouds, the transmittance of the haze)
 /// and to spheres that give off light, both weighted against meeting them by chance (Veach 1997, the balance
@@ -64,10 +64,9 @@ class BasicPathTracer {
     using Sky = typename WorldOf<Light>::Sky;
     using Haze = typename WorldOf<Light>::Haze;
 
-    /// `volumes`: one for each cloud of the scene, read here only. `eye`: the fog ends at its `sky_distance` from
-    /// there. Errors: InputError for a phase function that is none, and for fog in an atmosphere.
-    BasicPathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
-                    const glm::dvec3& eye = glm::dvec3(0.0));
+    /// `volumes`: one for each cloud of the scene, read here only. Errors: InputError for a phase function that is
+    /// none, and for endless fog in the light of sun and sky.
+    BasicPathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant);
 
     PathSample trace(const Ray& ray, Random& random) const;
 
@@ -111,7 +110,7 @@ class BasicPathTracer {
     struct Found {
         Light radiance{0.0};
         Light passed{0.0};  ///< of the sky directly behind, in Environment::unit
-        bool haze = false;  ///< the path met haze before anything else
+        bool air = false;   ///< the path met air before anything else
     };
 
     /// The next event of a path; infinitely far if that is the sky.
@@ -143,7 +142,9 @@ class BasicPathTracer {
     Light skyLight(const Path& path, Random& random) const;
     Light sunByChance(const Vertex& vertex) const;
     Light sunTransmission(const Path& path, double strength, Random& random) const;
-    bool isLit(const Vertex& vertex) const { return vertex.place != Place::haze || inscattering_; }
+    bool isLit(const Vertex& vertex) const {
+        return inscattering_ || vertex.place != Place::haze || !haze_.isFog(vertex.index);
+    }
 
     Sky environment_;
     Clouds clouds_;
@@ -151,7 +152,7 @@ class BasicPathTracer {
     Haze haze_;
     Surfaces surfaces_;
     Lamps lamps_;
-    bool inscattering_;  ///< the haze scatters light straight from sun and sky
+    bool inscattering_;  ///< the fog scatters light straight from sun and sky
 };
 
 using PathTracer = BasicPathTracer<glm::dvec3>;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace lumulus {
 
@@ -53,6 +54,14 @@ AmbientLight projectPanorama(std::span<const float> red, std::span<const float> 
     return light;
 }
 
+glm::dvec3 sunIrradianceAt(const Renderer& renderer, const query::Media& media, const glm::dvec3& point,
+                           const Check& check) {
+    const scene::Sun sun = renderer.sunAt(point);  // through fog and air
+    const query::Media clouds{media.clouds, {}, media.ground};
+    return sun.irradiance *
+           query::towardsSun(clouds, std::span(&point, 1), sun.directionTo, check).front().transmittance();
+}
+
 AmbientLight ambientAt(Renderer& renderer, ViewState& state, const glm::dvec3& point) {
     View view = renderer.sceneView();
     view.camera.position = point;
@@ -62,6 +71,7 @@ AmbientLight ambientAt(Renderer& renderer, ViewState& state, const glm::dvec3& p
     view.image.width = panoramaWidth;
     view.image.height = panoramaHeight;
     view.image.background = true;
+    view.sunDisc = false;
     const LayeredImage seen = renderer.draw(view, state);
     return projectPanorama(seen.layers.at("R"), seen.layers.at("G"), seen.layers.at("B"), panoramaWidth,
                            panoramaHeight);

@@ -26,8 +26,13 @@ std::array<double, 9> ambientBasis(const glm::dvec3& direction);
 AmbientLight projectPanorama(std::span<const float> red, std::span<const float> green, std::span<const float> blue,
                              int width, int height);
 
-/// Light from clouds, sky and ground at a point, without what comes straight from the sun: `renderer` is of a scene
-/// whose sun has an angular diameter of 0, and has traced its photons. Errors: those of Renderer::draw.
+/// Irradiance by the sun, or the moon, on a plane that faces it at a point [W/m²]: what clouds, fog and air let
+/// through. `media`: those of the renderer. Errors: what `check` throws.
+glm::dvec3 sunIrradianceAt(const Renderer& renderer, const query::Media& media, const glm::dvec3& point,
+                           const Check& check);
+
+/// Light from clouds, sky and ground at a point, without what comes straight from the sun. `renderer` has traced its
+/// photons. Errors: those of Renderer::draw.
 AmbientLight ambientAt(Renderer& renderer, ViewState& state, const glm::dvec3& point);
 
 }  // namespace lumulus

@@ -30,11 +30,15 @@ bool setSun(World& world, const glm::dvec3& directionTo, const glm::dvec3& irrad
     if (directionTo == sun.directionTo && irradiance == sun.irradiance) return false;
     if (!world.lights.hasSun() && !world.hasShadows())
         throw InputError("the scene was made without a sun", "sun.irradiance", "load a scene with one");
-    if (directionTo != sun.directionTo)
-        for (light::InstanceLight& light : world.light) light.shadowReduction = 0;
+    if (const sky::MapSky* map = world.lights.environment.map(); map != nullptr && map->sun())
+        throw InputError("the sun is that of the sky's map, and cannot move", "sky.map_sun",
+                         "load the scene with sky.map_sun = false and a sun.irradiance");
+    const glm::dvec3 before = world.lights.direct().directionTo;
     sun.directionTo = directionTo;
     sun.irradiance = irradiance;
     findReachingLight(world);
+    if (world.lights.direct().directionTo != before)
+        for (light::InstanceLight& light : world.light) light.shadowReduction = 0;
     return true;
 }
 

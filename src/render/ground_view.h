@@ -19,10 +19,12 @@ class GroundView {
     /// `interactive`: the sun moves from picture to picture, and its shadow has fewer nodes.
     explicit GroundView(bool interactive) : sunNodes_(interactive ? 8192.0 : 65536.0) {}
 
-    /// Brings the light on the ground up to date. Errors: what `check` throws.
-    const surface::GroundLight& light(gpu::Context& context, World& world, const Check& check);
+    /// Brings the light on the ground up to date, on all threads. A generation's check is not asked meanwhile: it draws
+    /// pictures of others, and that only on the thread of the generation. For a `coarse` picture (View::coarse) the
+    /// shadow of a sun that has moved has a quarter of the nodes. Errors: Error where interrupted.
+    const surface::GroundLight& light(gpu::Context& context, World& world, bool coarse);
     /// The ground for the photons of the next generation. Errors: as above.
-    photon::Ground forPhotons(gpu::Context& context, World& world, const Check& check);
+    photon::Ground forPhotons(gpu::Context& context, World& world);
 
   private:
     /// What the shares of sun and sky that arrive depend on.
@@ -34,14 +36,24 @@ class GroundView {
         bool operator==(const Clouds&) const = default;
     };
 
-    void update(gpu::Context& context, World& world, const Check& check);
+    void update(gpu::Context& context, World& world, bool coarse);
 
     std::optional<surface::GroundLight> light_;
     Clouds clouds_;
     glm::dvec3 first_{0.0};  ///< where the first cloud was
     std::optional<scene::Sun> sun_;
+    bool sunIsCoarse_ = false;
     double sunNodes_;
 };
+
+/// What clouds change of the light of an atmosphere's ground, as pixels of a part of the picture see it through the air
+/// [W/(m² sr)]; below 0 in shadows. Pixels that see no change are left out.
+std::vector<shared::SunPixel> groundShade(const surface::GroundLight& light, const sky::Atmosphere& air,
+                                          const Camera& camera, const Tile& tile);
+
+/// The ground of a world's atmosphere without shadows of clouds, in the light of its fog. Errors: Error where
+/// interrupted.
+surface::GroundLight openGround(const World& world, const Check& check);
 
 /// Throws InputError where a camera is below the ground.
 void requireAbove(const scene::Ground& ground, const Camera& camera);

@@ -35,7 +35,8 @@ int Painter::samplingSpacing(const World& world, const Camera& camera) const {
         const cloud::Instance& instance = world.instances[i];
         const double away = glm::length(instance.middle() - camera.position);
         const glm::dvec3 farthest = camera.position + (away + 0.5 * instance.diagonal()) * camera.axes[2];
-        spacing = std::min(spacing, draw::samplingSpacing(instance.voxelEdge() / frame::pixelLength(camera, farthest)));
+        const double width = instance.voxelWidth(camera.position);
+        spacing = std::min(spacing, draw::samplingSpacing(width / frame::pixelLength(camera, farthest)));
     }
     return spacing;
 }
@@ -114,7 +115,7 @@ shared::DrawParams Painter::drawParams(const World& world, const ViewState::Stat
     for (const std::size_t i : visible_) finest = std::min(finest, world.instances[i].voxelEdge());
     shared::DrawParams values{};
     values.view = frame::viewParams(view.camera);
-    values.light = draw::lightParams(world.lights.sun);
+    values.light = draw::lightParams(world.lights.direct());
     values.environment = world.lights.environment.params();
     if (features_.many) {
         values.atlas.density = world.sharedVolumes->inverseSize();

@@ -16,7 +16,7 @@ draw::DrawFeatures featuresOf(const World& world) {
     features.photons = world.hasPhotons();
     features.many = instances.size() > 1;
     features.sparse = std::ranges::any_of(instances, [](const auto* i) { return i->asset->isSparse(); });
-    features.air = world.lights.environment.atmosphere() != nullptr;
+    features.air = world.fogLight.has_value() || world.lights.environment.atmosphere() != nullptr;
     return features;
 }
 
@@ -49,7 +49,7 @@ void setPlace(shared::InstanceParams& params, const cloud::Instance& instance, c
     params.size = glm::vec3(asset.size);
     params.cells = asset.cells.cells;
     params.cellSize = asset.cells.cellSize;
-    params.voxelLength = static_cast<float>(instance.voxelEdge());
+    params.voxelLength = instance.isFlat() ? 0.0F : static_cast<float>(instance.voxelEdge());
 }
 
 void setMedium(shared::InstanceParams& params, const phase::ScatteringMedium& medium, const scene::Sun& sun,

@@ -14,7 +14,8 @@ struct Entry {
     Stage stage;
 };
 
-constexpr std::array<Entry, 27> entries{{
+constexpr std::array<Entry, 32> entries{{
+    {"photon starts", Stage::photons},
     {"trace", Stage::photons},
     {"sort", Stage::photons},
     {"gather", Stage::photons},
@@ -32,9 +33,13 @@ constexpr std::array<Entry, 27> entries{{
     {"atlas", Stage::light},
     {"frame background", Stage::fog},
     {"frame sky", Stage::draw},
+    {"frame sky map", Stage::draw},
     {"frame sun", Stage::fog},
     {"frame band", Stage::fog},
     {"frame download", Stage::fog},
+    {"lit fog", Stage::fog},
+    {"fog margin", Stage::fog},
+    {"fog spread", Stage::fog},
     {"fog split", Stage::fog},
     {"fog join", Stage::fog},
     {"fog light", Stage::fog},

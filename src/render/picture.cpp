@@ -8,17 +8,29 @@
 #include "frame/background.h"
 #include "frame/sun_disc.h"
 #include "render/view_light.h"
+#include "render/world_fog.h"
 #include "scene/ephemeris.h"
+#include "sky/shell.h"
 
 namespace lumulus {
 
 namespace {
 
-/// The sun as its disc is seen.
-scene::Sun shownSun(const World& world) {
+/// The sun as its disc is seen; without a disc where `state` shows none.
+scene::Sun shownSun(const World& world, const ViewState::State& state) {
     scene::Sun sun = world.lights.sun;
     sun.directionTo = scene::apparentDirection(sun);
+    if (!state.sunDisc) sun.angularDiameter = 0.0;
     return sun;
+}
+
+/// Where the eye is above level fog in an atmosphere.
+fog::EyeAbove eyeAbove(const fog_light::AirOverFog& air, const Camera& camera) {
+    const sky::Atmosphere& atmosphere = air.atmosphere();
+    const double height = atmosphere.heightAt(camera.position);
+    const double aboveTop = height - (air.top() - atmosphere.groundHeight());
+    return {atmosphere.upAt(camera.position), sky::planetRadius + height,
+            aboveTop > 0.0 ? std::optional(aboveTop) : std::nullopt};
 }
 
 }  // namespace
@@ -46,7 +58,8 @@ void PictureOrder::drawBackground(ViewState::State& state) {
 
 /// The sky and the ground behind the clouds, and the air before them.
 void PictureOrder::drawAtmosphere(ViewState::State& state) {
-    const sky::Atmosphere& air = *world.lights.environment.atmosphere();
+    const bool fogged = world.airOverFog != nullptr;
+    const sky::Atmosphere& air = fogged ? world.airOverFog->atmosphere() : *world.lights.environment.atmosphere();
     double nearest = std::numeric_limits<double>::max(), farthest = 0.0;
     for (const std::size_t i : world.visible()) {
         const double away = glm::length(world.instances[i].middle() - state.camera.position);
@@ -54,9 +67,17 @@ void PictureOrder::drawAtmosphere(ViewState::State& state) {
         farthest = std::max(farthest, away + 0.5 * world.instances[i].diagonal());
     }
     if (state.shown.height <= 0) nearest = farthest;
-    if (!state.sky) state.sky.emplace(work.context);
-    state.sky->update(air, state.camera, world.lights.sun, nearest, farthest);
+    if (!state.sky) state.sky.emplace(work.context, world.lights.environment.moon(), fogged);
+    state.sky->update(air, state.camera, world.lights.sun, nearest, farthest, state.coarse, world.airOverFog.get());
     work.run([&](gpu::Commands& commands) { state.sky->record(commands, *state.frame, state.camera, state.tile); });
+}
+
+/// The map of the surroundings behind the clouds.
+void PictureOrder::drawMap(ViewState::State& state) {
+    if (!state.map) state.map.emplace(work.context);
+    work.run([&](gpu::Commands& commands) {
+        state.map->record(commands, *state.frame, *world.lights.environment.map(), state.camera, state.tile);
+    });
 }
 
 /// A part of the frame as seen through the fog. A sky that differs by direction differs from its mean, which is what
@@ -73,9 +94,10 @@ LayeredImage PictureOrder::throughFog(ViewState::State& state, const Tile& wante
 
 /// Adds what is behind the clouds: ground and sun.
 void PictureOrder::finish(LayeredImage& image, ViewState::State& state) {
-    std::vector<shared::SunPixel> sun = frame::sunPixels(state.camera, state.tile, shownSun(world));
+    std::vector<shared::SunPixel> sun = frame::sunPixels(state.camera, state.tile, shownSun(world, state));
     if (ground != nullptr) {
-        const auto seen = surface::seenGround(state.camera, state.tile, ground->light(work.context, world, check));
+        const auto seen =
+            surface::seenGround(state.camera, state.tile, ground->light(work.context, world, state.coarse));
         surface::hideSun(sun, seen, state.tile.width);
         surface::addGround(image, seen, world.lights.constantSky());
     }
@@ -84,14 +106,14 @@ void PictureOrder::finish(LayeredImage& image, ViewState::State& state) {
 
 /// The same where there is fog. The tile is the whole picture, and the ground a layer of its own.
 LayeredImage PictureOrder::finishInFog(ViewState::State& state, const Tile& wanted) {
-    std::vector<shared::SunPixel> sun = frame::sunPixels(state.camera, state.tile, shownSun(world));
+    std::vector<shared::SunPixel> sun = frame::sunPixels(state.camera, state.tile, shownSun(world, state));
     if (ground == nullptr) {
         if (!sun.empty()) work.run([&](gpu::Commands& commands) { state.frame->recordSun(commands, sun); });
         return throughFog(state, wanted);
     }
     const glm::dvec3 sky = world.lights.constantSky();
     LayeredImage image = throughFog(state, wanted);
-    const surface::GroundLight& light = ground->light(work.context, world, check);
+    const surface::GroundLight& light = ground->light(work.context, world, state.coarse);
     const auto seen = surface::seenGround(state.camera, state.tile, light);
     surface::hideSun(sun, seen, state.tile.width);
     const std::vector<glm::vec4> behind = groundThroughFog(*fog, state.camera, seen, sky, sun);
@@ -101,12 +123,104 @@ LayeredImage PictureOrder::finishInFog(ViewState::State& state, const Tile& want
     return image;
 }
 
+/// The same where sun and sky light the fog: it hides what is behind it and sends light of its own, pixel by pixel. The
+/// filter spreads what clouds send beyond that.
+LayeredImage PictureOrder::finishInLitFog(ViewState::State& state, const Tile& wanted) {
+    std::vector<shared::SunPixel> sun = frame::sunPixels(state.camera, state.tile, shownSun(world, state));
+    std::vector<glm::vec4> groundSeen;
+    if (ground != nullptr) {
+        const auto seen =
+            surface::seenGround(state.camera, state.tile, ground->light(work.context, world, state.coarse));
+        surface::hideSun(sun, seen, state.tile.width);
+        for (const surface::GroundPixel& pixel : seen) groundSeen.emplace_back(pixel.radiance, pixel.share);
+    }
+    drawLitFog(state, sun, groundSeen);
+    LayeredImage image = state.frame->download(work.commands, wanted, work.times);
+    if (ground != nullptr)
+        surface::addGroundDepth(
+            image, surface::seenGround(state.camera, wanted, ground->light(work.context, world, state.coarse)));
+    return image;
+}
+
+/// Fog, sun and ground, and what the filter spreads of the clouds' light.
+void PictureOrder::drawLitFog(ViewState::State& state, const std::vector<shared::SunPixel>& sun,
+                              const std::vector<glm::vec4>& groundSeen) {
+    makeShadows(work, world, shadowReduction);
+    litFog->update(*world.fogLight, world.fogVersion);
+    const fog::ShadowCasters casters = shadowCasters(world, state.camera);
+    const gpu::Image* sky = state.sky ? state.sky->behind() : nullptr;
+    work.run([&](gpu::Commands& commands) {
+        if (!sun.empty()) {
+            state.frame->recordSun(commands, sun);
+            commands.barrier("sun");
+        }
+        litFog->record(commands, *state.frame, state.camera, state.tile, fogWithAir(world), casters, groundSeen, sky,
+                       world.airOverFog ? eyeAbove(*world.airOverFog, state.camera) : fog::EyeAbove{});
+    });
+    const fog::LitFog::Excess excess = litFog->excess();
+    if (excess.more != nullptr) fog->addSpread(*state.frame, state.camera, *excess.more, 1.0F, excess.farthest);
+    if (excess.less != nullptr) fog->addSpread(*state.frame, state.camera, *excess.less, -1.0F, excess.farthest);
+    frame::addTimes(work.times, fog->takeTimes());
+}
+
+/// The discs of sun and moon as an eye at this place would see them through the air above it.
+std::vector<shared::SunPixel> PictureOrder::discs(const ViewState::State& state, const glm::dvec3& eye) const {
+    const sky::Environment& environment = world.lights.environment;
+    Camera camera = state.camera;
+    camera.position = eye;
+    std::vector<shared::SunPixel> all =
+        frame::sunPixels(camera, state.tile, shownSun(world, state), environment.atmosphere());
+    if (!environment.moon()) return all;
+    for (const shared::SunPixel& pixel :
+         frame::sunPixels(camera, state.tile, *environment.moon(), environment.atmosphere()))
+        all.push_back(pixel);
+    return all;
+}
+
+/// The ground of an atmosphere as pixels see it.
+std::vector<glm::vec4> PictureOrder::planetSeen(const ViewState::State& state) {
+    std::optional<surface::GroundLight> open;
+    if (ground == nullptr) open = openGround(world, check);
+    const surface::GroundLight& light = ground != nullptr ? ground->light(work.context, world, state.coarse) : *open;
+    std::vector<glm::vec4> texels;
+    for (const surface::GroundPixel& pixel : surface::seenGround(state.camera, state.tile, light))
+        texels.emplace_back(pixel.radiance, pixel.share);
+    return texels;
+}
+
+/// The same under an atmosphere. Seen from within the fog, its sky is behind the fog; seen from above, the air is
+/// before it.
+LayeredImage PictureOrder::finishInFoggyAir(ViewState::State& state, const Tile& wanted) {
+    glm::dvec3 eye = state.camera.position;
+    const bool above = eyeAbove(*world.airOverFog, state.camera).aboveTop.has_value();
+    if (!above) eye.y = world.airOverFog->top();
+    const std::vector<shared::SunPixel> sun = discs(state, eye);
+    if (!above) drawAtmosphere(state);
+    drawLitFog(state, above ? std::vector<shared::SunPixel>{} : sun, planetSeen(state));
+    if (above) {
+        drawAtmosphere(state);
+        if (!sun.empty()) work.run([&](gpu::Commands& commands) { state.frame->recordSun(commands, sun); });
+    }
+    return state.frame->download(work.commands, wanted, work.times);
+}
+
 /// What follows the drawing into a frame.
 LayeredImage PictureOrder::finished(ViewState::State& state, const Tile& wanted) {
     if (world.lights.environment.atmosphere() != nullptr) drawAtmosphere(state);
-    const std::vector<shared::SunPixel> sun =
-        frame::sunPixels(state.camera, state.tile, shownSun(world), world.lights.environment.atmosphere());
-    if (!sun.empty()) work.run([&](gpu::Commands& commands) { state.frame->recordSun(commands, sun); });
+    if (world.lights.environment.map() != nullptr) drawMap(state);
+    if (ground != nullptr && world.lights.planet) {
+        const std::vector<shared::SunPixel> shade =
+            groundShade(ground->light(work.context, world, state.coarse), *world.lights.environment.atmosphere(),
+                        state.camera, state.tile);
+        if (!shade.empty()) work.run([&](gpu::Commands& commands) { state.frame->recordSun(commands, shade); });
+    }
+    const auto addDisc = [&](const scene::Sun& of) {
+        const std::vector<shared::SunPixel> disc =
+            frame::sunPixels(state.camera, state.tile, of, world.lights.environment.atmosphere());
+        if (!disc.empty()) work.run([&](gpu::Commands& commands) { state.frame->recordSun(commands, disc); });
+    };
+    addDisc(shownSun(world, state));
+    if (world.lights.environment.moon()) addDisc(*world.lights.environment.moon());
     if (fog != nullptr) return throughFog(state, wanted);
     return state.frame->download(work.commands, {0, 0, state.tile.width, state.tile.height}, work.times);
 }
@@ -124,8 +238,12 @@ LayeredImage PictureOrder::picture(ViewState::State& state, const View& view) {
         drawLight(state, photon::Part::all);
         painter->paint(work, world, state, draw::allBands(state.shown), inFrame() ? nullptr : &image, check, report);
     }
-    if (world.lights.environment.atmosphere() != nullptr)
+    if (world.airOverFog)
+        image = finishInFoggyAir(state, wanted);
+    else if (!world.lights.environment.isConstant())
         image = finished(state, wanted);
+    else if (litFog != nullptr)
+        image = finishInLitFog(state, wanted);
     else if (fog != nullptr)
         image = finishInFog(state, wanted);
     else

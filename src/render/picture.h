@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fog/lit/lit_fog.h"
 #include "fog/screen/fog.h"
 #include "render/ground_view.h"
 #include "render/painter.h"
@@ -13,6 +14,7 @@ struct PictureOrder {
     World& world;
     const Painter* painter;  ///< null: there is nothing to draw
     fog::Fog* fog;           ///< null: there is no fog
+    fog::LitFog* litFog;     ///< null: there is no fog in the light of sun and sky
     GroundView* ground;      ///< null: there is no ground
     int bands;               ///< of the photon map
     int shadowReduction;     ///< that shadow volumes may have
@@ -26,12 +28,19 @@ struct PictureOrder {
 
   private:
     /// Whether passes follow the drawing: the layers are then on the GPU.
-    bool inFrame() const { return fog != nullptr || world.lights.environment.atmosphere() != nullptr; }
+    bool inFrame() const { return fog != nullptr || litFog != nullptr || !world.lights.environment.isConstant(); }
     void drawBackground(ViewState::State& state);
     void drawAtmosphere(ViewState::State& state);
+    void drawMap(ViewState::State& state);
     LayeredImage throughFog(ViewState::State& state, const Tile& wanted);
     void finish(LayeredImage& image, ViewState::State& state);
     LayeredImage finishInFog(ViewState::State& state, const Tile& wanted);
+    LayeredImage finishInLitFog(ViewState::State& state, const Tile& wanted);
+    LayeredImage finishInFoggyAir(ViewState::State& state, const Tile& wanted);
+    void drawLitFog(ViewState::State& state, const std::vector<shared::SunPixel>& sun,
+                    const std::vector<glm::vec4>& groundSeen);
+    std::vector<shared::SunPixel> discs(const ViewState::State& state, const glm::dvec3& eye) const;
+    std::vector<glm::vec4> planetSeen(const ViewState::State& state);
     LayeredImage finished(ViewState::State& state, const Tile& wanted);
     void drawLight(ViewState::State& state, photon::Part part);
 };

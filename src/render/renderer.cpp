@@ -8,11 +8,15 @@
 #include "base/stopwatch.h"
 #include "frame/background.h"
 #include "frame/view_params.h"
+#include "light/photon/traced_sums.h"
 #include "render/changes.h"
+#include "render/frame_light.h"
+#include "render/light_fingerprint.h"
 #include "render/pass_stage.h"
 #include "render/picture.h"
 #include "render/renderer_state.h"
 #include "render/world_media.h"
+#include "scene/fog_bounds.h"
 
 namespace lumulus {
 
@@ -23,6 +27,12 @@ const scene::Scene& drawable(const scene::Scene& scene) {
     if (!scene.surfaces.empty()) {
         throw InputError("surfaces are for the reference alone", scene.source + ", surface",
                          "use lumulus reference, or leave them out: --set surface=[]");
+    }
+    // without clouds the scene may be for pictures of other renderers, whose fog may be endless
+    if (!scene.clouds.empty()) scene::requireBoundedFog(scene);
+    if (scene.ground && scene.sky.model == scene::SkyModel::map) {
+        throw InputError("a ground is lit by a constant sky or an atmosphere, not by a map", "ground",
+                         "leave it out (the map has its own), or use lumulus reference");
     }
     return scene;
 }
@@ -59,13 +69,16 @@ ViewState::~ViewState() = default;
 Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
     : state_(std::make_unique<State>(
           drawable(scene), options,
-          std::make_shared<gpu::Context>(gpu::ContextOptions{options.device, options.validation}))) {
+          options.context ? options.context
+                          : std::make_shared<gpu::Context>(gpu::ContextOptions{options.device, options.validation}))) {
     State& s = *state_;
     WorldReport report;
     s.world.emplace(makeWorld(s.context, scene,
-                              {options.keepRing, options.progressive, s.report, options.loaded, s.check}, report));
+                              {options.keepRing, options.progressive, s.report, options.loaded, s.check, options.read},
+                              report));
     s.statistics.warnings = std::move(report.warnings);
     s.statistics.clouds = std::move(report.clouds);
+    s.statistics.assets = std::move(report.assets);
     s.statistics.loadSeconds = report.loadSeconds;
     const Stopwatch preparing;
     s.makePainters(scene);
@@ -86,10 +99,34 @@ Renderer::Renderer(const scene::Scene& scene, const Renderer& other, const Rende
     s.statistics.prepareSeconds = preparing.seconds();
 }
 
+Renderer::Renderer(const scene::Scene& scene, Renderer& other, std::span<const CloudOrigin> origins,
+                   const RendererOptions& options)
+    : state_(std::make_unique<State>(drawable(scene), options, other.state_->ownContext)) {
+    State& s = *state_;
+    State& before = *other.state_;
+    const Stopwatch preparing;
+    s.world.emplace(makeEditedWorld(s.context, scene, *before.world, origins,
+                                    {options.keepRing, options.progressive, s.report, {}, s.check}));
+    s.world->wind = before.world->wind;
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        s.world->light[i].layouts = before.world->light[origins[i].from].layouts;
+        s.statistics.clouds.push_back(before.statistics.clouds.at(origins[i].from));
+        const auto moved = before.moved.find(origins[i].from);
+        if (moved != before.moved.end() && !origins[i].added) s.moved[i] = moved->second;
+    }
+    setTime(0.0);
+    s.statistics.warnings = before.statistics.warnings;
+    s.makePainters(scene);
+    s.statistics.prepareSeconds = preparing.seconds();
+}
+
 void Renderer::State::makePainters(const scene::Scene& scene) {
     statistics.device = context.device().name;
-    if (!scene.fog.media.empty()) fog.emplace(context, scene.fog, check);
-    if (world->lights.ground) ground.emplace(keepRing);
+    if (!scene.fog.media.empty()) fog.emplace(context, world->fog, check);
+    if (world->fogLight)
+        litFog.emplace(context, world->hasShadows(), world->sharedShadow.has_value(),
+                       world->lights.ground || world->airOverFog, world->airOverFog != nullptr);
+    if (world->shadedGround() != nullptr) ground.emplace(keepRing);
     for (const auto& asset : world->assets) statistics.collectors += asset->collectors.size();
     if (!world->visible().empty()) painter.emplace(context, *world, scene.draw);
 }
@@ -97,7 +134,7 @@ void Renderer::State::makePainters(const scene::Scene& scene) {
 Renderer::~Renderer() = default;
 
 int Renderer::generationsWanted() const {
-    return state_->world->hasPhotons() ? state_->photonMap.generations : 0;
+    return state_->world->hasPhotons() ? state_->world->photonMap.generations : 0;
 }
 
 void Renderer::traceGeneration() {
@@ -108,12 +145,39 @@ bool Renderer::traceGeneration(const CutOff& cutOff) {
     State& s = *state_;
     const Stopwatch watch;
     std::optional<photon::Ground> ground;
-    if (s.ground && s.world->photons) ground = s.ground->forPhotons(s.context, *s.world, s.check);
+    if (s.ground && s.world->photons) ground = s.ground->forPhotons(s.context, *s.world);
     s.tracesLightOfNow = true;
     const bool finished = traceAll(*s.world, cutOff, ground ? &*ground : nullptr);
     if (finished && s.tracesLightOfNow) ++s.sinceChange;
     s.statistics.traceSeconds += watch.seconds();
     return finished;
+}
+
+std::shared_ptr<gpu::Context> Renderer::context() const {
+    return state_->ownContext;
+}
+
+photon::TracedSums Renderer::tracedSums() {
+    std::optional<photon::PhotonMap>& photons = state_->world->photons;
+    return photons ? photons->tracedSums() : photon::TracedSums{};
+}
+
+void Renderer::goOnFrom(const photon::TracedSums& sums) {
+    State& s = *state_;
+    if (s.world->photons) s.world->photons->goOnFrom(sums);
+}
+
+std::optional<FrameLight> Renderer::frameLight(const scene::Scene& scene) {
+    return frameLightOf(state_->context, *state_->world, scene);
+}
+
+bool Renderer::carryOn(const scene::Scene& scene, const FrameLight& before, std::span<const photon::Way> ways,
+                       int generations) {
+    return carryLight(state_->context, *state_->world, scene, before, ways, generations);
+}
+
+std::string Renderer::lightFingerprint(const scene::Scene& scene) {
+    return lumulus::lightFingerprint(state_->context, *state_->world, scene);
 }
 
 std::uint64_t Renderer::shrinkGenerations(std::uint64_t divisor, std::uint64_t fewest) {
@@ -139,7 +203,7 @@ int Renderer::State::raysAcross(const Camera& seen, int most) const {
     for (const std::size_t i : world->visible()) {
         const cloud::Instance& instance = world->instances[i];
         const double pixel = frame::pixelLength(seen, instance.middle());
-        rays = std::max(rays, frame::raysAcross(voxels * instance.voxelEdge() / pixel));
+        rays = std::max(rays, frame::raysAcross(voxels * instance.voxelWidth(seen.position) / pixel));
     }
     return std::min(most, rays);
 }
@@ -151,8 +215,10 @@ int Renderer::raysAcross(const View& view) const {
 void Renderer::State::show(ViewState::State& state, const View& view) const {
     state.previous = state.camera;
     state.camera = makeCamera(view, world->bounds);
-    if (ground) requireAbove(*world->lights.ground, state.camera);
+    if (world->lights.ground) requireAbove(*world->lights.ground, state.camera);
     state.tile = drawnTile(view);
+    state.sunDisc = view.sunDisc;
+    state.coarse = view.coarse;
     state.raysAcross = raysAcross(state.camera, view.mostRays);
     state.spacing = painter ? painter->samplingSpacing(*world, state.camera) : 1;
 }
@@ -179,8 +245,9 @@ LayeredImage Renderer::draw(const View& view, ViewState& viewState) {
                        *s.world,
                        s.painter ? &*s.painter : nullptr,
                        s.fog ? &*s.fog : nullptr,
+                       s.litFog ? &*s.litFog : nullptr,
                        s.ground ? &*s.ground : nullptr,
-                       s.photonMap.bands,
+                       s.world->photonMap.bands,
                        s.sunAllowed,
                        s.check,
                        s.report};
@@ -198,7 +265,7 @@ Preview Renderer::preview() {
     State& s = *state_;
     ViewState viewState;
     s.show(viewState.state(), sceneView());
-    PictureOrder order{s.work,       *s.world, &*s.painter, nullptr, nullptr, s.photonMap.bands,
+    PictureOrder order{s.work,       *s.world, &*s.painter, nullptr, nullptr, nullptr, s.world->photonMap.bands,
                        s.sunAllowed, s.check,  noReport};
     Preview preview = order.preview(viewState.state());
     if (!s.image.background)

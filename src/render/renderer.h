@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,11 +15,26 @@
 #include "base/pass_time.h"
 #include "base/progress.h"
 #include "query/media.h"
+#include "render/cloud_origin.h"
 #include "scene/scene.h"
 #include "view/view.h"
 #include "volume/summary.h"
 
+namespace lumulus::photon {
+struct LeafLight;
+struct TracedSums;
+}  // namespace lumulus::photon
+namespace lumulus::gpu {
+class Context;
+}
+
 namespace lumulus {
+
+struct CloudVolumes;
+struct FrameLight;
+
+/// Gives the densities of a scene, where they were read beforehand; else returns false.
+using ReadBefore = std::function<bool(const scene::Scene&, CloudVolumes&)>;
 
 struct RendererOptions {
     std::string device;        ///< name (part of it) or index; empty: the best one
@@ -28,7 +45,9 @@ struct RendererOptions {
     /// The photons are not counted beforehand: generations may go on beyond the scene's, and preview() can be asked.
     /// Not with a ring.
     bool progressive = false;
-    ToldOfClouds loaded{};  ///< told of the clouds before any work on them, which can take long
+    std::shared_ptr<gpu::Context> context{};  ///< the device of another renderer, in the place of `device`; may be null
+    ToldOfClouds loaded{};                    ///< told of the clouds before any work on them, which can take long
+    ReadBefore read{};                        ///< gives densities that were read beforehand
 };
 
 /// What `--stats` reports.
@@ -45,6 +64,7 @@ struct Statistics {
     std::uint64_t gpuBytes = 0;        ///< of buffers and images
     std::uint64_t gpuBytesHeld = 0;    ///< allocated from the driver for them
     std::vector<CloudSummary> clouds;  ///< of the scene, in its order
+    std::vector<AssetSummary> assets;  ///< that were prepared for them
     std::vector<PassTime> passes;      ///< sums over all generations, in the order of the frame
     std::vector<std::string> warnings;
     std::vector<std::string> validationMessages;
@@ -96,8 +116,16 @@ class Renderer {
     /// device (whatever `options` say of one), the densities, the collectors and the compiled programs with `other`, so
     /// that one thread at a time may use the two.
     Renderer(const scene::Scene& scene, const Renderer& other, const RendererOptions& options);
+    /// A renderer of a scene whose clouds are those of `origins`: some have come or gone, or are of another substance.
+    /// It shares with `other` as above, has its wind and where its clouds have moved, and goes on with the photons of
+    /// the clouds that stay; generations of the light of now take their place. Without them it begins anew where there
+    /// is a ground. Both need `keepRing`. Errors: InputError where the photon map has no room for so many.
+    Renderer(const scene::Scene& scene, Renderer& other, std::span<const CloudOrigin> origins,
+             const RendererOptions& options);
     ~Renderer();
 
+    /// Its device, for other renderers, of which one thread at a time may use one.
+    std::shared_ptr<gpu::Context> context() const;
     /// Generations that the scene asks for (0 where no photon is needed).
     int generationsWanted() const;
     /// Traces one generation into the oldest slot of the ring of every cloud. Where `check` throws between two rounds
@@ -110,6 +138,21 @@ class Renderer {
     /// Divides the photons of all generations by `divisor`, down to `fewest` in the largest cloud or what there are.
     /// Only before the first one. Returns the photons of a generation.
     std::uint64_t shrinkGenerations(std::uint64_t divisor, std::uint64_t fewest);
+    /// What all generations have left, for a map file. Not with `keepRing`.
+    photon::TracedSums tracedSums();
+    /// Goes on with generations that were traced elsewhere for a scene of the same lightFingerprint(), before the first
+    /// one. Not with `keepRing`. Errors: InputError where they cannot be of this scene.
+    void goOnFrom(const photon::TracedSums& sums);
+    /// Light of all photons so far, for the frame behind that of this scene; none where no photon is of use. Not with
+    /// `keepRing`.
+    std::optional<FrameLight> frameLight(const scene::Scene& scene);
+    /// Adds the light of the frame before to what was traced, as so many generations more (render/frame_light.h):
+    /// `ways` that what is in the clouds of the scene has come. Returns whether there was any to add. Not with
+    /// `keepRing`.
+    bool carryOn(const scene::Scene& scene, const FrameLight& before,
+                 std::span<const std::function<glm::dvec3(const glm::dvec3&)>> ways, int generations);
+    /// Of all that light depends on (render/light_fingerprint.h), as it is in this scene.
+    std::string lightFingerprint(const scene::Scene& scene);
     /// Draws a view: layers as in the documented EXR contract. All views share the photons.
     LayeredImage draw(const View& view, ViewState& state);
     /// The same for a viewer who looks once.
@@ -167,6 +210,10 @@ class Renderer {
     /// What light meets in the world as it is now, for questions without a picture; its own copy but for densities,
     /// which are immutable. The first call reads densities back from the device.
     query::Media media();
+    /// What the photons have left in the leaves of all clouds, once they are traced; none where no photon is needed.
+    std::vector<photon::LeafLight> leafLight();
+    /// Sun, or moon where that is brighter, as it reaches a point through fog and air, but for clouds.
+    scene::Sun sunAt(const glm::dvec3& point) const;
 
     Statistics statistics() const;
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "fog/lit/lit_fog.h"
 #include "fog/screen/fog.h"
 #include "render/gpu_work.h"
 #include "render/ground_view.h"
@@ -19,7 +20,6 @@ struct Renderer::State {
     State(const scene::Scene& scene, const RendererOptions& options, std::shared_ptr<gpu::Context> device)
         : camera(scene.camera),
           image(scene.image),
-          photonMap(scene.photonMap),
           report(options.report),
           check(options.check),
           ownContext(std::move(device)),
@@ -28,7 +28,6 @@ struct Renderer::State {
 
     scene::Camera camera;  ///< of the scene's view
     scene::Image image;
-    scene::PhotonMap photonMap;
     Report report;
     Check check;
     std::shared_ptr<gpu::Context> ownContext;  ///< shared by renderers that differ in light
@@ -37,6 +36,7 @@ struct Renderer::State {
     std::optional<World> world;
     std::optional<Painter> painter;
     std::optional<fog::Fog> fog;
+    std::optional<fog::LitFog> litFog;
     std::optional<GroundView> ground;
     std::map<std::size_t, glm::dvec3> moved;  ///< ways of the clouds that do not lie where the scene has them [m]
     int sunAllowed = 1;                       ///< reduction of shadow volumes

@@ -12,16 +12,23 @@ glm::dvec3 eyeOf(const Bounds& bounds, const Camera& camera) {
     return camera.position - camera.axes[2] * (1e5 * 2.0 * bounds.radius());
 }
 
-/// Light cells as fine as the photons of the map ask for, and a field for this view.
-void makeRoom(gpu::Context& context, const World& world, light::InstanceLight& light, InstanceView& seen) {
+light::CountedCells& cellsFor(light::InstanceLight& light, const ViewState::State& view) {
+    return view.coarse ? light.coarse : light.fine;
+}
+
+/// Light cells as fine as the photons of the map ask for, or coarse ones, and a field for this view.
+void makeRoom(gpu::Context& context, const World& world, light::InstanceLight& light, const ViewState::State& view,
+              InstanceView& seen) {
     const photon::MapPart& part = world.photons->parts()[*light.part];
     const auto photons = std::max<std::uint64_t>(1, world.photons->photonsOf(*light.part));
-    const cloud::CellGrid grid = light::lightGrid(*part.asset, photons);
-    if (!light.cells || !(grid == light.cells->grid())) {
-        light.cells.reset();
-        light.cells.emplace(context, *part.asset, light.layouts->of(context, *part.asset, grid), part.estimates,
-                            part.voxelToMetres, part.firstCollector);
-        light.changed();
+    const cloud::CellGrid fine = light::lightGrid(*part.asset, photons, light.fewestCells);
+    const cloud::CellGrid grid = view.coarse ? light::coarseLightGrid(*part.asset, fine) : fine;
+    light::CountedCells& counted = cellsFor(light, view);
+    if (!counted.cells || !(grid == counted.cells->grid())) {
+        counted.cells.reset();
+        counted.cells.emplace(context, *part.asset, light.layouts->of(context, *part.asset, grid), part.estimates,
+                              part.voxelToMetres, part.firstCollector, view.coarse);
+        counted.counted = false;
     }
     if (seen.field && grid == seen.field->grid()) return;
     seen.field.reset();
@@ -57,18 +64,20 @@ void shareShadows(GpuWork& work, World& world) {
         all.push_back({&world.instances[i], light.shadow ? &*light.shadow : nullptr, light.shadowVersion});
     }
     if (world.sharedShadow->isUpToDate(all)) return;
-    work.run(
-        [&](gpu::Commands& commands) { world.sharedShadow->record(commands, all, -world.lights.sun.directionTo); });
+    work.run([&](gpu::Commands& commands) {
+        world.sharedShadow->record(commands, all, -world.lights.direct().directionTo);
+    });
 }
 
 /// The light field of one instance, from the collectors of all.
 void recordField(gpu::Commands& commands, const photon::PhotonMap& photons, const photon::Light& counted,
-                 light::InstanceLight& light, InstanceView& seen, const glm::vec3& eye, int bands, bool all) {
-    if (!light.counted || !all) {
-        light.cells->recordCounts(commands, photons.fluences(), estimates(photons, *light.part, bands, counted));
-        light.counted = all;
+                 const light::InstanceLight& light, light::CountedCells& cells, InstanceView& seen,
+                 const glm::vec3& eye, int bands, bool all) {
+    if (!cells.counted || !all) {
+        cells.cells->recordCounts(commands, photons.fluences(), estimates(photons, *light.part, bands, counted));
+        cells.counted = all;
     }
-    seen.field->record(commands, *light.cells, eye, photons.radiance(), photons.colours());
+    seen.field->record(commands, *cells.cells, eye, photons.radiance(), photons.colours());
     seen.eye = all ? std::optional(eye) : std::nullopt;
     seen.version = light.version;
 }
@@ -108,11 +117,14 @@ void makeFields(GpuWork& work, World& world, ViewState::State& view, photon::Par
             }
             for (std::size_t k = done; k < std::min(done + atOnce, old.size()); ++k) {
                 const std::size_t i = old[k];
-                recordField(commands, photons, counted, world.light[i], view.instances[i],
-                            eyeVoxel(world.instances[i], view.camera), bands, part == photon::Part::all);
+                recordField(commands, photons, counted, world.light[i], cellsFor(world.light[i], view),
+                            view.instances[i], eyeVoxel(world.instances[i], view.camera), bands,
+                            part == photon::Part::all);
             }
         });
 }
+
+}  // namespace
 
 void makeShadows(GpuWork& work, World& world, int reduction) {
     std::vector<std::size_t> old;
@@ -128,8 +140,6 @@ void makeShadows(GpuWork& work, World& world, int reduction) {
     if (world.sharedShadow) shareShadows(work, world);
 }
 
-}  // namespace
-
 glm::vec3 eyeVoxel(const cloud::Instance& instance, const Camera& camera) {
     glm::dvec3 eye = camera.position;
     if (camera.projection == scene::Projection::orthographic) eye -= camera.axes[2] * (1e5 * instance.diagonal());
@@ -141,7 +151,7 @@ void lightView(GpuWork& work, World& world, ViewState::State& view, photon::Part
     const std::vector<std::size_t> visible = world.visible();
     for (std::size_t place = 0; place < visible.size(); ++place)
         if (const std::size_t i = visible[place]; world.light[i].part && (!view.tiles || view.tiles->isListed(place)))
-            makeRoom(work.context, world, world.light[i], view.instances[i]);
+            makeRoom(work.context, world, world.light[i], view, view.instances[i]);
     makeShadows(work, world, shadowReduction);
     if (world.photons) makeFields(work, world, view, part, bands);
 }

@@ -10,6 +10,7 @@
 #include "draw/instance_tiles.h"
 #include "draw/sparse_sampling.h"
 #include "frame/frame.h"
+#include "frame/map_pass.h"
 #include "frame/sky_pass.h"
 #include "light/light_field.h"
 #include "render/renderer.h"
@@ -26,10 +27,12 @@ struct InstanceView {
 
 /// What belongs to a viewer and outlives a frame.
 struct ViewState::State {
-    Camera camera;    ///< of the picture that is drawn
-    Camera previous;  ///< of the picture before
-    Tile tile;        ///< the part of the picture that is drawn
-    Tile shown;       ///< what of the tile the clouds may be seen in: the rest is background
+    Camera camera;        ///< of the picture that is drawn
+    Camera previous;      ///< of the picture before
+    Tile tile;            ///< the part of the picture that is drawn
+    Tile shown;           ///< what of the tile the clouds may be seen in: the rest is background
+    bool sunDisc = true;  ///< whether the sun's disc is seen
+    bool coarse = false;  ///< the picture is (View::coarse)
     int raysAcross = 1;
     int spacing = 1;                          ///< of the points of sparse sampling in pixels; 1: every pixel is drawn
     int sampledRowsDrawn = 0;                 ///< of this picture's points
@@ -39,6 +42,7 @@ struct ViewState::State {
     std::optional<draw::Billboards::View> billboards;
     std::optional<frame::Frame> frame;         ///< where passes follow the drawing
     std::optional<frame::SkyPass> sky;         ///< where the sky is an atmosphere
+    std::optional<frame::MapPass> map;         ///< where it is a map
     std::optional<draw::InstanceTiles> tiles;  ///< where the world has several visible instances
 };
 

@@ -9,43 +9,47 @@
 #include "base/stopwatch.h"
 #include "cloud/bricks.h"
 #include "light/light_field.h"
-#include "light/photon/ground.h"
-#include "medium/fog_media.h"
 #include "medium/phase_note.h"
 #include "render/importance.h"
 #include "render/world_assets.h"
 #include "view/camera.h"
+#include "view/ground.h"
 #include "volume/load.h"
 
 namespace lumulus {
 
 namespace {
 
-/// Share of the sun's light that fog lets through to an instance.
-glm::dvec3 sunThroughFog(const World& world, const cloud::Instance& instance) {
-    if (world.fog.media.empty()) return glm::dvec3(1.0);
-    return fog::sunTransmittance(world.fog, instance.bounds.centre, world.lights.sun.directionTo);
-}
-
-/// Where the instances are now, and what of the sun's light reaches them; that which air takes differs by place, and
-/// is not in it.
-std::vector<photon::Placement> placements(const World& world, const std::vector<std::size_t>& visible) {
-    std::vector<photon::Placement> places;
-    for (const std::size_t i : visible) {
-        const cloud::Instance& instance = world.instances[i];
-        const glm::dvec3 &reaching = world.light[i].sun.irradiance, &whole = world.lights.sun.irradiance;
-        photon::Placement place{instance.origin + instance.offset, instance.medium.extinction, glm::dvec3(1.0)};
-        for (int channel = 0; channel < 3; ++channel)
-            if (whole[channel] > 0.0) place.sunShare[channel] = reaching[channel] / whole[channel];
-        if (world.air) place.sunShare = sunThroughFog(world, instance);
-        places.push_back(place);
+/// An atmosphere has its planet's ground, with the albedo and height of the scene's; it is no part of the scene then.
+light::LightSet lightsOf(const scene::Scene& scene) {
+    const sky::Environment environment(scene.sky, scene.ground, scene.sun.angularDiameter, sky::moonOf(scene));
+    std::optional<scene::Ground> ground = scene.ground, planet;
+    if (environment.atmosphere() != nullptr) {
+        planet = scene.ground.value_or(scene::Ground{scene.sky.groundAlbedo, 0.0});
+        ground.reset();
     }
-    return places;
+    return {environment.sunOf(scene.sun), environment, ground, planet};
 }
 
-/// The ground that is no part of the sky: an atmosphere has its planet's, with the same albedo and height.
-std::optional<scene::Ground> groundBelow(const scene::Scene& scene) {
-    return scene.sky.model == scene::SkyModel::atmosphere ? std::nullopt : scene.ground;
+/// An instance as cloud `number` of the scene has it now.
+cloud::Instance editedInstance(const cloud::Instance& from, const scene::Scene& scene, std::size_t number,
+                               const CloudOrigin& origin, const scene::Sun& sun, const scene::PhotonMap& map) {
+    const scene::Cloud& cloud = scene.clouds[number];
+    cloud::Instance instance = from;
+    instance.name = scene::nameOf(scene, number);
+    instance.offset = glm::dvec3(0.0);
+    if (instance.sceneExtinction > 0.0) instance.medium.extinction *= cloud.extinction / instance.sceneExtinction;
+    instance.sceneExtinction = cloud.extinction;
+    if (origin.substance && instance.asset != nullptr) setSubstance(instance, map, cloud, sun);
+    if (!origin.added) return instance;
+    const double sine = origin.scale * std::sin(origin.yaw), cosine = origin.scale * std::cos(origin.yaw);
+    const glm::dmat3 turned(cosine, 0.0, -sine, 0.0, origin.scale, 0.0, sine, 0.0, cosine);
+    const glm::dvec3 middle = from.bounds.centre;
+    instance.voxelToMetres = turned * from.voxelToMetres;
+    instance.origin = middle + turned * (from.origin - middle) + origin.move;
+    instance.bounds =
+        movedBounds(from.bounds, {from.voxelToMetres, from.origin}, {instance.voxelToMetres, instance.origin});
+    return instance;
 }
 
 /// Makes a world step by step.
@@ -56,12 +60,12 @@ class Maker {
           scene_(scene),
           options_(options),
           report_(report),
-          world_{.fog = scene.fog,
-                 .lights = {scene.sun, {scene.sky, scene.ground, scene.sun.angularDiameter}, groundBelow(scene)}} {}
+          world_{.fog = scene.fog, .lights = {scene.sun, sky::Environment(scene::Sky())}} {}
 
     World make() {
         const Stopwatch loading;
         CloudVolumes volumes = load();
+        standOnGround(world_.bounds);
         const std::vector<vdb::PlacedVolume> placed = volumes.placed();
         report_.loadSeconds = loading.seconds();
         makeCamera(scene_.camera, scene_.image, world_.bounds);  // what is wrong with it shows before the work
@@ -75,10 +79,33 @@ class Maker {
         return std::move(world_);
     }
 
+    World makeEdited(World& other, std::span<const CloudOrigin> origins) {
+        world_.assets = other.assets;
+        world_.photonMap = other.photonMap;
+        world_.fields = other.fields;
+        standOnGround(other.bounds);
+        std::vector<Bounds> bounds;
+        for (std::size_t i = 0; i < origins.size(); ++i) {
+            world_.instances.push_back(editedInstance(other.instances.at(origins[i].from), scene_, i, origins[i],
+                                                      world_.lights.sun, world_.photonMap));
+            bounds.push_back(world_.instances.back().bounds);
+        }
+        world_.bounds = unite(bounds);
+        world_.light.resize(world_.instances.size());
+        findReachingLight(world_);
+        before_ = {&other, origins};
+        lightUp();
+        if (world_.photons && other.photons) world_.photons->goOnFrom(*other.photons, partsBefore());
+        return std::move(world_);
+    }
+
     World makeBeside(const World& other) {
         world_.assets = other.assets;
+        world_.photonMap = other.photonMap;
+        world_.photonMap.firstGeneration = scene_.photonMap.firstGeneration;
         world_.instances = other.instances;
         world_.bounds = other.bounds;
+        standOnGround(world_.bounds);
         world_.light.resize(world_.instances.size());
         for (std::size_t i = 0; i < world_.instances.size(); ++i) {
             cloud::Instance& instance = world_.instances[i];
@@ -86,34 +113,59 @@ class Maker {
             if (instance.sceneExtinction != wanted) instance.medium.extinction *= wanted / instance.sceneExtinction;
             instance.sceneExtinction = wanted;
             instance.offset = glm::dvec3(0.0);
+            world_.light[i].shadowTexel = other.light[i].shadowTexel;
+            world_.light[i].fewestCells = other.light[i].fewestCells;
         }
+        world_.levelsOfDetail = other.levelsOfDetail;
         findReachingLight(world_);
         lightUp();
         return std::move(world_);
     }
 
   private:
+    /// Lights and fog, with the ground below clouds that lie within these bounds.
+    void standOnGround(const Bounds& clouds) {
+        const scene::Scene grounded = groundedScene(scene_, clouds);
+        world_.lights = lightsOf(grounded);
+        world_.fog = grounded.fog;
+    }
     /// The volumes of all clouds; places the instances.
     CloudVolumes load();
     void lightUp();
     photon::Options photonOptions() const;
     void makePhotonMap(const std::vector<std::size_t>& visible);
+    std::optional<std::size_t> partBefore(std::size_t instance) const;
+    std::vector<std::optional<std::size_t>> partsBefore() const;
+
+    /// The world whose photons are kept, and which of its clouds the instances were.
+    struct Before {
+        const World* world = nullptr;
+        std::span<const CloudOrigin> origins;
+    };
 
     gpu::Context& context_;
     const scene::Scene& scene_;
     const WorldOptions& options_;
     WorldReport& report_;
     World world_;
+    Before before_;
 };
 
 CloudVolumes Maker::load() {
-    CloudVolumes volumes = loadClouds(scene_, options_.report, options_.check, FieldStorage::asWanted);
+    CloudVolumes volumes;
+    if (!options_.read || !options_.read(scene_, volumes))
+        volumes = loadClouds(scene_, options_.report, options_.check, FieldStorage::asWanted);
     report_.warnings = std::move(volumes.warnings);
     const scene::Phase* noted = nullptr;
     for (const scene::Cloud& cloud : scene_.clouds) {
         if (noted != nullptr && *noted == cloud.phase) continue;  // the many clouds of a field have one
         noted = &cloud.phase;
         if (auto note = phase::normalisationNote(cloud.phase)) report_.warnings.push_back(std::move(*note));
+        const bool backward = cloud.phase.model == scene::PhaseModel::henyeyGreenstein && cloud.phase.g < -0.5;
+        if (backward && scene_.sky.model != scene::SkyModel::constant)
+            report_.warnings.push_back(
+                "clouds that scatter backwards (phase.g below -0.5) may be 16 % too dark under an atmosphere or a map; "
+                "lumulus reference is exact");
     }
     report_.clouds = summarise(scene_, volumes);
     if (options_.loaded) options_.loaded(report_.clouds, report_.warnings);
@@ -153,7 +205,8 @@ void Maker::lightUp() {
         const bool shades = visible.size() > 1 || instance.medium.scatters();
         scatters = scatters || instance.medium.scatters();
         if (shades && world_.lights.hasSun())
-            world_.light[i].shadow.emplace(context_, *instance.asset, instance.voxelToMetres);
+            world_.light[i].shadow.emplace(context_, *instance.asset, instance.voxelToMetres,
+                                           world_.light[i].shadowTexel);
     }
     if (visible.size() > 1 && world_.hasShadows()) world_.sharedShadow.emplace(context_);
     if (scatters && !world_.lights.isDark()) makePhotonMap(visible);
@@ -161,7 +214,7 @@ void Maker::lightUp() {
 }
 
 photon::Options Maker::photonOptions() const {
-    const scene::PhotonMap& wanted = scene_.photonMap;
+    const scene::PhotonMap& wanted = world_.photonMap;
     const auto generations = static_cast<std::uint64_t>(wanted.generations);
     const auto photons = static_cast<std::uint64_t>(wanted.photons);
     const std::uint64_t each = (photons + generations - 1) / generations;
@@ -175,12 +228,27 @@ photon::Options Maker::photonOptions() const {
     options.bands = wanted.bands;
     options.seed = wanted.seed;
     options.keepRing = options_.keepRing;
-    options.ground = world_.lights.ground.has_value();
+    options.ground = world_.shadedGround() != nullptr;
     options.splitGenerations = options_.progressive;
     options.check = options_.check;
-    options.air = world_.lights.environment.atmosphere() != nullptr;
+    const std::optional<photon::AirLight>& air = world_.air ? world_.air : world_.light[world_.visible().front()].air;
+    options.fog = world_.fogLight.has_value();
+    options.air = air.has_value();
+    if (air) options.skyCells = air->skyFrame.size;
     options.memoryBudget = static_cast<std::uint64_t>(std::ldexp(wanted.memoryBudget, 20));
     return options;
+}
+
+/// The part of the photon map of before that an instance was; none where it is new.
+std::optional<std::size_t> Maker::partBefore(std::size_t instance) const {
+    if (before_.world == nullptr || !before_.world->photons || before_.origins[instance].added) return std::nullopt;
+    return before_.world->light[before_.origins[instance].from].part;
+}
+
+std::vector<std::optional<std::size_t>> Maker::partsBefore() const {
+    std::vector<std::optional<std::size_t>> parts;
+    for (const std::size_t i : world_.visible()) parts.push_back(partBefore(i));
+    return parts;
 }
 
 /// One map for all that is visible. Photons are shared out by what the picture shows of each instance.
@@ -190,7 +258,8 @@ void Maker::makePhotonMap(const std::vector<std::size_t>& visible) {
     std::vector<photon::MapPart> parts;
     for (std::size_t k = 0; k < visible.size(); ++k) {
         const cloud::Instance& instance = world_.instances[visible[k]];
-        const double photons = std::ceil(shares[k] * static_cast<double>(scene_.photonMap.photons));
+        const double photons =
+            std::ceil(shares[k] * static_cast<double>(world_.photonMap.photons) * scene::mostFrames(world_.photonMap));
         // progressive: as fine as any number of photons may ask for
         const std::uint64_t most = options_.progressive
                                        ? std::numeric_limits<std::uint64_t>::max()
@@ -204,7 +273,9 @@ void Maker::makePhotonMap(const std::vector<std::size_t>& visible) {
         part.collects = instance.medium.scatters();
         if (part.collects) {
             light.part = k;
-            part.estimates = light::lightGrid(*instance.asset, most);
+            const auto before = partBefore(visible[k]);  // counts that are kept are of the same cells
+            part.estimates = before ? before_.world->photons->parts()[*before].estimates
+                                    : light::lightGrid(*instance.asset, most, light.fewestCells);
         }
         parts.push_back(std::move(part));
     }
@@ -228,19 +299,15 @@ std::vector<std::size_t> World::visible() const {
     return numbers;
 }
 
+const scene::Ground* World::shadedGround() const {
+    if (lights.ground) return &*lights.ground;
+    const bool dense = std::ranges::none_of(assets, [](const auto& asset) { return asset->isSparse(); });
+    return lights.planet && dense && !assets.empty() ? &*lights.planet : nullptr;
+}
+
 bool World::hasShadows() const {
     return std::ranges::any_of(light, [](const light::InstanceLight& l) { return l.shadow.has_value(); });
 }
-
-namespace {
-
-/// Maps of the sky above the middle of the clouds.
-const sky::SkyMaps& skyMapsOf(World& world) {
-    const glm::dvec3& middle = world.bounds.centre;
-    return world.lights.skyMaps({middle.x, world.lights.environment.atmosphere()->groundHeight(), middle.z});
-}
-
-}  // namespace
 
 World makeWorld(gpu::Context& context, const scene::Scene& scene, const WorldOptions& options, WorldReport& report) {
     return Maker(context, scene, options, report).make();
@@ -252,59 +319,10 @@ World makeWorldBeside(gpu::Context& context, const scene::Scene& scene, const Wo
     return Maker(context, scene, options, report).makeBeside(other);
 }
 
-void findReachingLight(World& world) {
-    const sky::Atmosphere* atmosphere = world.lights.environment.atmosphere();
-    const bool many = world.visible().size() > 1;
-    glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
-    for (std::size_t i = 0; i < world.instances.size(); ++i) {
-        const cloud::Instance& instance = world.instances[i];
-        light::InstanceLight& light = world.light[i];
-        light.sun = world.lights.sunAt(instance.bounds.centre, world.fog);
-        if (atmosphere == nullptr || instance.asset == nullptr) continue;
-        const photon::Box box{instance.origin + instance.offset, instance.voxelToMetres,
-                              glm::dvec3(instance.asset->size)};
-        light.air = photon::makeAirLight(*atmosphere, many ? nullptr : &skyMapsOf(world), world.lights.sun, box);
-        light.sun.irradiance = world.lights.sun.irradiance * sunThroughFog(world, instance) * light.air->mostSun;
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec3 at(corner & 1, (corner >> 1) & 1, corner >> 2);
-            const glm::dvec3 point = box.origin + box.edges * (at * box.size);
-            lower = glm::min(lower, point), upper = glm::max(upper, point);
-        }
-    }
-    if (atmosphere == nullptr || !many) return;
-    const photon::Box all{lower, glm::dmat3(1.0), upper - lower};
-    world.air = photon::makeAirLight(*atmosphere, &skyMapsOf(world), world.lights.sun, all);
-}
-
-void placeInstances(World& world) {
-    const std::vector<std::size_t> visible = world.visible();
-    if (world.photons && visible.size() > 1) world.photons->place(placements(world, visible));
-}
-
-bool traceAll(World& world, const CutOff& cutOff, const photon::Ground* ground) {
-    if (world.photons) {
-        const std::vector<std::size_t> visible = world.visible();
-        const cloud::Instance& first = world.instances[visible.front()];
-        const light::InstanceLight& only = world.light[visible.front()];
-        scene::Sun sun = world.lights.sun;
-        const photon::AirLight* air = only.air ? &*only.air : nullptr;
-        if (visible.size() > 1) {
-            placeInstances(world);
-            air = world.air ? &*world.air : nullptr;
-            if (air != nullptr) sun.irradiance *= air->mostSun;
-        } else {
-            sun = only.sun;
-        }
-        if (ground != nullptr) {
-            photon::Ground below = *ground;
-            below.corner = visible.size() > 1 ? world.photons->corner() : first.origin + first.offset;
-            world.photons->setGround(below);
-        }
-        if (!world.photons->tryTrace(sun, world.lights.environment, cutOff, first.medium.extinction, air)) return false;
-        world.photons->keep();
-    }
-    for (light::InstanceLight& light : world.light) light.changed();
-    return true;
+World makeEditedWorld(gpu::Context& context, const scene::Scene& scene, World& other,
+                      std::span<const CloudOrigin> origins, const WorldOptions& options) {
+    WorldReport report;
+    return Maker(context, scene, options, report).makeEdited(other, origins);
 }
 
 }  // namespace lumulus

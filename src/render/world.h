@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,15 +12,19 @@
 #include "base/progress.h"
 #include "cloud/instance.h"
 #include "cloud/shared_volumes.h"
+#include "light/fog_light/air_over_fog.h"
 #include "light/instance_light.h"
 #include "light/light_set.h"
 #include "light/photon/photon_map.h"
 #include "light/shared_shadow.h"
 #include "query/bricks.h"
+#include "render/cloud_origin.h"
 #include "scene/scene.h"
 #include "volume/summary.h"
 
 namespace lumulus {
+
+struct CloudVolumes;
 
 /// Everything that scatters, emits or blocks: one owner for each value that can change while a renderer lives.
 struct World {
@@ -30,13 +36,17 @@ struct World {
     std::vector<light::InstanceLight> light{};  ///< of each instance
     /// Where several instances are drawn: the volumes of their assets, in the order of visible().
     std::unique_ptr<cloud::SharedVolumes> sharedVolumes{};
-    std::optional<photon::PhotonMap> photons{};  ///< of all instances; none where no photon would be of use
-    std::optional<photon::AirLight> air{};       ///< in all instances together, where several are in an atmosphere
+    std::optional<photon::PhotonMap> photons{};     ///< of all instances; none where no photon would be of use
+    std::optional<photon::AirLight> air{};          ///< in all instances together, where several are in air or lit fog
+    std::optional<fog_light::FogLight> fogLight{};  ///< in fog without clouds, where it is lit (updateFogLight())
+    std::uint64_t fogVersion = 0;                   ///< of it
+    std::unique_ptr<const fog_light::AirOverFog> airOverFog{};  ///< of that fog, under an atmosphere
     /// Where several instances are lit by the sun: shadow volumes with what stands before them.
     std::optional<light::SharedShadow> sharedShadow{};
-    Bounds bounds{};              ///< of all instances, without their offsets
-    bool levelsOfDetail = false;  ///< whether instances have voxels chosen by their size in the picture
-    glm::dvec3 wind{0.0};         ///< velocity with which all instances drift [m/s]
+    Bounds bounds{};               ///< of all instances, without their offsets
+    bool levelsOfDetail = false;   ///< whether instances have voxels chosen by their size in the picture
+    scene::PhotonMap photonMap{};  ///< that is asked for: the scene's, but where voxels are flat
+    glm::dvec3 wind{0.0};          ///< velocity with which all instances drift [m/s]
     /// Densities on the host, of the assets that a question has needed them of.
     std::map<const cloud::Asset*, std::shared_ptr<const query::BrickField>> fields{};
 
@@ -44,12 +54,16 @@ struct World {
     std::vector<std::size_t> visible() const;
     bool hasPhotons() const { return photons.has_value(); }
     bool hasShadows() const;
+    /// The ground on which clouds throw shadows: the scene's, or the planet's, where densities can be read back of all
+    /// clouds; else null.
+    const scene::Ground* shadedGround() const;
 };
 
 /// What making a world tells of itself.
 struct WorldReport {
     double loadSeconds = 0.0, prepareSeconds = 0.0;
     std::vector<CloudSummary> clouds;
+    std::vector<AssetSummary> assets;
     std::vector<std::string> warnings;
 };
 
@@ -59,6 +73,7 @@ struct WorldOptions {
     Report report = noReport;
     ToldOfClouds loaded{};
     Check check = stopIfInterrupted;
+    std::function<bool(const scene::Scene&, CloudVolumes&)> read{};
 };
 
 /// Loads and prepares the clouds of a scene. Errors: InputError for what is wrong with the scene, Error where
@@ -69,6 +84,12 @@ World makeWorld(gpu::Context& context, const scene::Scene& scene, const WorldOpt
 /// has it, and no photons yet. Errors: as above.
 World makeWorldBeside(gpu::Context& context, const scene::Scene& scene, const World& other,
                       const WorldOptions& options);
+
+/// A world on the same device of a scene whose clouds are those of `origins`: they share the assets of `other`, which
+/// has lost or got some, or gives some another substance. Photons of those that stay are kept (PhotonMap::goOnFrom).
+/// Errors: as above; InputError where the photon map has no room for so many.
+World makeEditedWorld(gpu::Context& context, const scene::Scene& scene, World& other,
+                      std::span<const CloudOrigin> origins, const WorldOptions& options);
 
 /// Finds the light that reaches the instances, after the lights or the places of instances have changed.
 void findReachingLight(World& world);

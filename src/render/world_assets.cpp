@@ -7,6 +7,7 @@
 
 #include "cloud/bricks.h"
 #include "cloud/level_of_detail.h"
+#include "cloud/refined.h"
 #include "frame/view_params.h"
 #include "light/photon/map_limits.h"
 #include "view/camera.h"
@@ -20,6 +21,11 @@ constexpr double degrees = 3.14159265358979323846 / 180.0;
 constexpr double sameShape = 1e-6;
 /// Samples of the gradient for each leaf that a tree may have.
 constexpr int samplesOfLeaf = 16;
+/// Texels of shadow volumes whose voxels are smaller than a pixel are so many times as wide across the light.
+constexpr int smallTexel = 2;
+/// Cells of light fields that few photons fill are no larger than so many pixels, but where there would be fewer along
+/// the longest side than these.
+constexpr double cellPixels = 2.0, leastCells = 4.0;
 /// Clouds out of the picture are as if they were so many times smaller.
 constexpr double unseen = 4.0;
 
@@ -46,15 +52,14 @@ double edgeOf(const glm::dmat3& voxelToMetres) {
 /// Media of the same phase function and albedo share their tables.
 class MediumMaker {
   public:
-    explicit MediumMaker(const scene::Scene& scene) : scene_(scene) {}
+    MediumMaker(const scene::PhotonMap& map, const scene::Sun& sun) : map_(map), sun_(sun) {}
 
     phase::ScatteringMedium make(const scene::Cloud& from, double maximum) {
         auto known = std::ranges::find_if(
             known_, [&](const Known& k) { return k.cloud->phase == from.phase && k.cloud->albedo == from.albedo; });
         if (known == known_.end()) {
-            const scene::PhotonMap& map = scene_.photonMap;
-            known_.push_back({&from, phase::makeScatteringTables(from.phase, map.forwardCut * degrees, from.albedo,
-                                                                 map.bands, scene_.sun.angularDiameter * degrees)});
+            known_.push_back({&from, phase::makeScatteringTables(from.phase, map_.forwardCut * degrees, from.albedo,
+                                                                 map_.bands, sun_.angularDiameter * degrees)});
             known = known_.end() - 1;
         }
         phase::ScatteringMedium medium;
@@ -69,7 +74,8 @@ class MediumMaker {
         const scene::Cloud* cloud;
         phase::ScatteringTables tables;
     };
-    const scene::Scene& scene_;
+    const scene::PhotonMap& map_;
+    const scene::Sun& sun_;
     std::vector<Known> known_;
 };
 
@@ -77,9 +83,22 @@ class MediumMaker {
 struct Detail {
     int level = 0;
     int collectors = std::numeric_limits<int>::max();
+    glm::ivec3 parts{1};  ///< of a voxel, along each axis
 
     bool operator==(const Detail&) const = default;
+    /// Whether it is the field itself.
+    bool isWhole() const { return level == 0 && parts == glm::ivec3(1); }
 };
+
+/// A field at a level of detail, or divided into parts; empty for the field itself.
+vdb::Volume atDetail(const vdb::Volume& field, const Detail& detail) {
+    if (detail.level > 0) return cloud::coarsened(field, detail.level);
+    return detail.isWhole() ? vdb::Volume{} : cloud::refined(field, detail.parts);
+}
+
+vdb::Affine atDetail(const vdb::Affine& place, const Detail& detail) {
+    return detail.level > 0 ? cloud::coarsened(place, detail.level) : cloud::refined(place, detail.parts);
+}
 
 /// Instances that share an asset.
 struct Group {
@@ -92,16 +111,21 @@ struct Group {
 /// Sizes in the picture [pixels] that take the same number of collectors differ by this factor at most.
 constexpr double sameSize = 1.5;
 
-Detail detailFor(const cloud::Instance& instance, const glm::ivec3& size, const Camera& camera) {
+/// Of an instance at its nearest point [pixels]; infinite where the camera is in it or close.
+double voxelPixels(const cloud::Instance& instance, const glm::ivec3& size, const Camera& camera) {
     const glm::dvec3 middle = instance.toWorld(0.5 * glm::dvec3(size));
     const double radius = 0.5 * glm::length(instance.voxelToMetres * glm::dvec3(size));
     const glm::dvec3 away = middle - camera.position;
     const double distance = glm::length(away);
-    if (distance <= 1.5 * radius) return {};
+    if (distance <= 1.5 * radius) return std::numeric_limits<double>::infinity();
     // pixels of a perspective grow with the depth, the smallest on the axis
     const double pixel = frame::pixelLength(camera, camera.position + (distance - radius) * camera.axes[2]);
     const bool behind = camera.projection == scene::Projection::perspective && glm::dot(away, camera.axes[2]) < -radius;
-    const double voxel = edgeOf(instance.voxelToMetres) / pixel / (behind ? unseen : 1.0);  // pixels
+    return edgeOf(instance.voxelToMetres) / pixel / (behind ? unseen : 1.0);
+}
+
+Detail detailFor(double voxel, const glm::ivec3& size) {
+    if (std::isinf(voxel)) return {};
     const double across = voxel * glm::compMax(size);
     const double rounded = std::pow(sameSize, std::ceil(std::log(std::max(across, 1.0)) / std::log(sameSize)));
     return {cloud::levelOfDetail(glm::compMax(size), voxel), cloud::collectorsFor(rounded)};
@@ -114,9 +138,9 @@ double reducedExtinction(const phase::ScatteringMedium& medium, int bands) {
 
 /// Lowers the collectors of several clouds to what the scene's photon map has room for.
 void fitCollectors(const gpu::Context& context, const scene::Scene& scene, const WorldOptions& options,
-                   std::vector<Group>& groups) {
+                   const World& world, std::vector<Group>& groups) {
     constexpr int fewest = 30;
-    const scene::PhotonMap& map = scene.photonMap;
+    const scene::PhotonMap& map = world.photonMap;
     const photon::MapSize size{0, map.bands, map.generations, options.keepRing, options.progressive, 0};
     const auto room = static_cast<double>(photon::mostCollectors(
         size, static_cast<std::uint64_t>(std::ldexp(map.memoryBudget, 20)), context.limits().maxStorageBufferRange));
@@ -131,22 +155,35 @@ void fitCollectors(const gpu::Context& context, const scene::Scene& scene, const
                                            static_cast<int>(room / wanted * group.detail.collectors));
 }
 
+AssetSummary summaryOf(const cloud::Asset& asset, const Group& group) {
+    const cloud::PreparationTimes& t = asset.times;
+    return {{asset.size.x, asset.size.y, asset.size.z},
+            group.detail.level,
+            asset.collectors.size(),
+            group.instances.size(),
+            t.upload,
+            t.majorants,
+            t.sampling,
+            t.tree,
+            t.collectors};
+}
+
 /// Makes the asset of a group, and gives it to its instances.
 void prepareGroup(gpu::Context& context, const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& placed,
                   const std::shared_ptr<const gpu::Image>& pool, const Group& group, const WorldOptions& options,
                   World& world, WorldReport& report) {
     options.report("preparing the cloud", 0, 1);
     const std::size_t first = group.instances.front();
-    const vdb::Volume coarse =
-        group.detail.level > 0 ? cloud::coarsened(*group.volume, group.detail.level) : vdb::Volume{};
-    const vdb::PlacedVolume field =
-        group.detail.level > 0 ? vdb::PlacedVolume(coarse, cloud::coarsened(placed[first].toWorld, group.detail.level))
-                               : placed[first];
+    const vdb::Volume other = atDetail(*group.volume, group.detail);
+    const vdb::PlacedVolume field = group.detail.isWhole()
+                                        ? placed[first]
+                                        : vdb::PlacedVolume(other, atDetail(placed[first].toWorld, group.detail));
     const double thinner = static_cast<double>(field.volume->maximum) / static_cast<double>(group.volume->maximum);
     cloud::PrepareOptions wanted;
     wanted.preparation = scene.preparation;
-    wanted.majorant = scene.photonMap.majorant;
-    wanted.keepBlocks = placed.size() > 1;
+    wanted.majorant = world.photonMap.majorant;
+    wanted.keepBlocks = placed.size() > 1 || options.keepRing;  // who keeps a ring may get more clouds
+    wanted.check = options.check;
     const bool fewer = group.detail.collectors < scene.preparation.maxLeaves;
     if (fewer) {
         wanted.preparation.maxLeaves = group.detail.collectors;
@@ -156,27 +193,41 @@ void prepareGroup(gpu::Context& context, const scene::Scene& scene, const std::v
     // instance is its extinction times how much larger it is.
     for (const std::size_t i : group.instances) {
         cloud::Instance& instance = world.instances[i];
-        if (group.detail.level > 0) {
+        if (!group.detail.isWhole()) {
             instance.medium.extinction *= thinner;
-            instance.voxelToMetres =
-                cloud::coarsened({instance.voxelToMetres, instance.origin}, group.detail.level).linear;
+            instance.voxelToMetres = atDetail({instance.voxelToMetres, instance.origin}, group.detail).linear;
         }
+        if (group.detail.parts != glm::ivec3(1))  // the box of the same density by smaller voxels
+            instance.bounds = boundsOf(vdb::PlacedVolume(other, {instance.voxelToMetres, instance.origin}));
         const double larger = i == first ? 1.0 : edgeOf(instance.voxelToMetres) / edgeOf(field.toWorld.linear);
         wanted.reducedExtinction =
-            std::max(wanted.reducedExtinction, larger * reducedExtinction(instance.medium, scene.photonMap.bands));
+            std::max(wanted.reducedExtinction, larger * reducedExtinction(instance.medium, world.photonMap.bands));
     }
     world.assets.push_back(std::make_shared<const cloud::Asset>(
         pool ? cloud::prepareBricks(context, *field.bricks, field.toWorld, pool, wanted)
              : cloud::prepare(context, field, wanted)));
     const cloud::Asset* const asset = world.assets.back().get();
     for (const std::size_t i : group.instances) world.instances[i].asset = asset;
+    report.assets.push_back(summaryOf(*asset, group));
     if (asset->tree.limited && !fewer)
         report.warnings.push_back("samples of the gradient asked for more than " +
                                   std::to_string(scene.preparation.maxLeaves) +
                                   " collectors: light is smeared in those that stay too large; raise "
                                   "preparation.max_leaves or lower preparation.samples");
-    stopIfInterrupted();
+    options.check();
     options.report("preparing the cloud", 1, 1);
+}
+
+/// The scene's, but where voxels of a cloud are flat and so thick that they are divided.
+scene::PhotonMap photonMapFor(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& placed) {
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const vdb::Volume& volume = *placed[i].volume;
+        const double extinction =
+            scene.clouds[i].extinction * scene.clouds[i].densityScale * static_cast<double>(volume.maximum);
+        if (!volume.empty() && cloud::refinement(volume.size, placed[i].toWorld.linear, extinction) != glm::ivec3(1))
+            return cloud::forFlatVoxels(scene.photonMap);
+    }
+    return scene.photonMap;
 }
 
 }  // namespace
@@ -187,6 +238,13 @@ std::shared_ptr<const gpu::Image> makePool(gpu::Context& context, std::vector<vd
     for (vdb::SparseVolume& volume : bricks)
         if (!volume.empty()) volumes.push_back(&volume);
     return volumes.empty() ? nullptr : cloud::makePool(context, volumes, check);
+}
+
+void setSubstance(cloud::Instance& instance, const scene::PhotonMap& map, const scene::Cloud& cloud,
+                  const scene::Sun& sun) {
+    const double extinction = instance.medium.extinction;
+    instance.medium = MediumMaker(map, sun).make(cloud, 1.0);
+    instance.medium.extinction = extinction;
 }
 
 Bounds movedBounds(const Bounds& bounds, const vdb::Affine& from, const vdb::Affine& to) {
@@ -203,7 +261,8 @@ void prepareAssets(gpu::Context& context, const scene::Scene& scene, const std::
                    const std::shared_ptr<const gpu::Image>& pool, const WorldOptions& options, World& world,
                    WorldReport& report) {
     std::vector<Group> groups;
-    MediumMaker media(scene);
+    world.photonMap = photonMapFor(scene, placed);
+    MediumMaker media(world.photonMap, world.lights.sun);
     std::vector<std::size_t> visible;
     for (std::size_t i = 0; i < placed.size(); ++i) {
         const vdb::Volume& volume = *placed[i].volume;
@@ -219,7 +278,18 @@ void prepareAssets(gpu::Context& context, const scene::Scene& scene, const std::
         const vdb::Volume& volume = *placed[i].volume;
         const cloud::Instance& instance = world.instances[i];
         const glm::dmat3 shape = shapeOf(instance.voxelToMetres);
-        Detail detail = levels ? detailFor(instance, volume.size, camera) : Detail{};
+        Detail detail;
+        if (levels) {
+            const double voxel = voxelPixels(instance, volume.size, camera);
+            detail = detailFor(voxel, volume.size);
+            const double thickness = instance.medium.extinction * edgeOf(instance.voxelToMetres);
+            detail.level = std::min(detail.level, cloud::levelOfThickness(thickness));
+            if (std::ldexp(voxel, detail.level) <= 1.0) world.light[i].shadowTexel = smallTexel;
+            world.light[i].fewestCells =
+                std::clamp(voxel * glm::compMax(volume.size) / cellPixels, leastCells, light::fewestLightCells);
+        }
+        if (!pool && detail.level == 0)
+            detail.parts = cloud::refinement(volume.size, instance.voxelToMetres, instance.medium.extinction);
         if (pool) detail.level = 0;  // bricks have levels of their own, which are chosen where they are laid out
         const auto same = std::ranges::find_if(groups, [&](const Group& group) {
             return group.volume == &volume && group.detail == detail && areAlike(group.shape, shape);
@@ -229,7 +299,7 @@ void prepareAssets(gpu::Context& context, const scene::Scene& scene, const std::
         else
             same->instances.push_back(i);
     }
-    if (visible.size() > 1) fitCollectors(context, scene, options, groups);
+    if (visible.size() > 1) fitCollectors(context, scene, options, world, groups);
     for (const Group& group : groups) prepareGroup(context, scene, placed, pool, group, options, world, report);
 }
 

@@ -3,54 +3,71 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstring>
-#include <glm/gtc/packing.hpp>
+#include <map>
 #include <span>
 
-#include "base/error.h"
 #include "gpu/transfer.h"
 
 namespace lumulus {
 
 namespace {
 
-/// The value of a texel in a density format.
-float densityOf(vdb::DensityFormat format, const std::byte* texel) {
-    if (format == vdb::DensityFormat::r8) return static_cast<float>(*texel) / 255.0F;
-    if (format == vdb::DensityFormat::r16f) {
-        std::uint16_t half = 0;
-        std::memcpy(&half, texel, sizeof(half));
-        return glm::unpackHalf1x16(half);
+/// Pools that have been read back: assets share them.
+using Pools = std::map<const gpu::Image*, std::vector<std::byte>>;
+
+query::BrickField readBricks(gpu::Context& context, const cloud::Asset& asset, Pools& pools, const Check& check) {
+    std::vector<std::byte>& pool = pools[asset.density.get()];
+    if (pool.empty()) pool = gpu::download<std::byte>(context, *asset.density);
+    const auto texels = gpu::download<glm::uvec2>(context, *asset.bricks);
+    constexpr int edge = vdb::SparseVolume::brickEdge * vdb::SparseVolume::nodeEdge;
+    const glm::ivec3 roots = (asset.size + edge - 1) / edge;
+    const auto first = static_cast<std::uint32_t>(roots.x * roots.y * roots.z);
+    std::vector<std::uint32_t> nodes;
+    std::uint32_t last = 0;
+    for (std::uint32_t i = 0; i < first; ++i) {
+        nodes.push_back((texels[i].x - first) / vdb::SparseVolume::nodeEntries);
+        last = std::max(last, nodes.back());
     }
-    float value = 0.0F;
-    std::memcpy(&value, texel, sizeof(value));
-    return value;
+    std::vector<vdb::BrickEntry> entries;
+    for (std::size_t i = 0; i < std::size_t{vdb::SparseVolume::nodeEntries} * (last + 1); ++i)
+        entries.push_back({texels[first + i].x, texels[first + i].y});
+    const auto read = [&](std::uint32_t place, std::span<float, vdb::SparseVolume::slotTexels> to) {
+        constexpr int slot = vdb::SparseVolume::slotEdge;
+        const glm::ivec3 size = asset.density->extent();
+        const glm::ivec3 corner = slot * glm::ivec3(vdb::slotOf(place));
+        std::size_t texel = 0;
+        for (int z = 0; z < slot; ++z)
+            for (int y = 0; y < slot; ++y) {
+                const std::size_t row = static_cast<std::size_t>(corner.x) +
+                                        static_cast<std::size_t>(size.x) *
+                                            (static_cast<std::size_t>(corner.y + y) +
+                                             static_cast<std::size_t>(size.y) * static_cast<std::size_t>(corner.z + z));
+                for (std::size_t x = 0; x < slot; ++x) to[texel++] = vdb::texelValue(pool, row + x, asset.format);
+            }
+    };
+    return {{asset.size, nodes, entries}, read, check};
 }
 
-std::shared_ptr<const query::BrickField> readBack(gpu::Context& context, const cloud::Asset& asset,
-                                                  const Check& check) {
-    if (asset.isSparse())
-        throw InputError("a ground and questions about clouds need their densities as dense volumes",
-                         "preparation.storage",
-                         "write storage = \"dense\", with a preparation.memory_budget that they fit");
+query::BrickField readBack(gpu::Context& context, const cloud::Asset& asset, Pools& pools, const Check& check) {
+    if (asset.isSparse()) return readBricks(context, asset, pools, check);
     const auto texels = gpu::download<std::byte>(context, *asset.density);
-    const std::size_t bytes = vdb::texelBytes(asset.format);
     vdb::Volume volume;
     volume.size = asset.size;
     volume.maximum = 1.0F;
-    volume.density.resize(texels.size() / bytes);
+    volume.density.resize(texels.size() / vdb::texelBytes(asset.format));
     tbb::parallel_for(std::size_t{0}, volume.density.size(),
-                      [&](std::size_t i) { volume.density[i] = densityOf(asset.format, &texels[i * bytes]); });
-    return std::make_shared<const query::BrickField>(volume, check);
+                      [&](std::size_t i) { volume.density[i] = vdb::texelValue(texels, i, asset.format); });
+    return query::BrickField(volume, check);
 }
 
 template <class Extinction>
 query::Media mediaWith(gpu::Context& context, World& world, const Check& check, const Extinction& extinctionOf) {
     std::vector<query::PlacedField> placed;
+    Pools pools;
     for (const std::size_t i : world.visible()) {
         const cloud::Instance& instance = world.instances[i];
         std::shared_ptr<const query::BrickField>& field = world.fields[instance.asset];
-        if (!field) field = readBack(context, *instance.asset, check);
+        if (!field) field = std::make_shared<const query::BrickField>(readBack(context, *instance.asset, pools, check));
         placed.push_back(
             {field, instance.voxelToMetres, instance.origin + instance.offset, extinctionOf(instance.medium)});
     }

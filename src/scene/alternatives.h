@@ -10,12 +10,15 @@ namespace lumulus::scene {
 
 /// Pairs of keys of which only one may be given: of the same section (in an array, of the same entry), or of two
 /// sections that are no arrays.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 23> alternatives{{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 26> alternatives{{
     {"sun.direction_to", "sun.azimuth"},
     {"sun.direction_to", "sun.elevation"},
     {"cloud.vdb", "cloud.procedural"},
     {"fog.media.visibility", "fog.media.scattering"},
     {"fog.media.visibility", "fog.media.absorption"},
+    {"fog.media.aerosol", "fog.media.scattering"},
+    {"fog.media.aerosol", "fog.media.absorption"},
+    {"fog.media.aerosol", "fog.media.g"},
     {"sun.direction_to", "time.utc"},
     {"sun.direction_to", "time.latitude"},
     {"sun.direction_to", "time.longitude"},

@@ -12,12 +12,13 @@ constexpr std::array skyModels{SkyModel::constant, SkyModel::atmosphere, SkyMode
 
 std::vector<Key> atmosphereKeys() {
     return {
-        choice(
-            "sky.model", {"constant", "atmosphere", "map"}, "\"constant\"",
-            "`constant` has the same radiance in all directions. `atmosphere` is the air around a planet, lit by the "
-            "sun: sky, ground, sunlight and air before the clouds all follow from it (docs/atmosphere.md). `map` is "
-            "a picture of the surroundings.",
-            [](Draft& d, const Value& v) { d.scene.sky.model = skyModels.at(v.choice); }),
+        choice("sky.model", {"constant", "atmosphere", "map"}, "(`\"atmosphere\"` or `\"constant\"`)",
+               "`atmosphere` is the air around a planet, lit by the sun: sky, ground, sunlight and air before the "
+               "clouds all "
+               "follow from it (docs/atmosphere.md). `constant` has the same radiance in all directions; it is the "
+               "default of a scene that gives `sky.radiance`, or has fog and no clouds. `map` is a picture of the "
+               "surroundings.",
+               [](Draft& d, const Value& v) { d.scene.sky.model = skyModels.at(v.choice); }),
         choice("sky.preset", {"clear", "continental", "hazy", "hillaire"}, "\"continental\"",
                "For `atmosphere`: the air, which the keys below may change. `clear` has an aerosol depth of 0.04, "
                "`continental` 0.084 (ASTM G173), `hazy` 0.3; `hillaire` is the medium of Hillaire (2020) at three "

@@ -17,7 +17,7 @@ constexpr std::string_view introduction = R"(# The scene file
 Made by `lumulus info --scene-format > docs/scene-format.md`; a test compares the two. Do not edit by hand.
 
 A scene is a [TOML](https://toml.io) file of at most 1 MiB. Every key has a default: an empty file renders the
-procedural cumulus under a sun and a blue sky. Unknown keys, wrong types, values out of range and parameters that the
+procedural cumulus before an atmosphere. Unknown keys, wrong types, values out of range and parameters that the
 chosen phase function does not have are errors that name the key and the line. Numbers may be written as integers; `1e6`
 may stand for a whole number. NaN and infinity are refused everywhere.
 
@@ -35,7 +35,9 @@ may stand for a whole number. NaN and infinity are refused everywhere.
   `--set draw.mode=march`. An override of one of two keys that exclude each other (`sun.azimuth`, `sun.direction_to`;
   `cloud.0.vdb`, `cloud.0.procedural`) takes the file's other one out; one of `cloud.0.phase.model` or of the `kind` of
   a medium or surface takes out the parameters that it does not have.
-- `--quality` stands below the file: it changes only what the scene leaves out.
+- `--quality` stands below the file: it changes only what the scene leaves out. Where a cloud has flat voxels, it asks
+  for three times the photons, at most 6,000,000, and for at least 8 bands and at most 6° (docs/experiments/flat-voxels.md).
+- `[animate]` has the values of keys over the frames of `lumulus render --frames` (docs/sequences.md).
 )";
 
 std::string qualityTable() {

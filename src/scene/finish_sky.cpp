@@ -31,6 +31,12 @@ void checkRead(const Settings& settings, const char* path, bool read, const char
 
 void finishSky(Draft& draft, const Settings& settings) {
     Sky& sky = draft.scene.sky;
+    const bool named = settings.find("sky.model") != nullptr || settings.find("sky.radiance") != nullptr;
+    const bool alone = draft.scene.clouds.empty() && draft.scene.fields.empty() && !draft.scene.fog.media.empty();
+    if (!named && !alone) {  // fog alone is that of `lumulus composite`, whose pictures have their light
+        sky.model = SkyModel::atmosphere;
+        sky.groundBelowClouds = !draft.scene.ground;
+    }
     const bool air = sky.model == SkyModel::atmosphere;
     checkRead(settings, "sky.radiance", sky.model == SkyModel::constant,
               "leave it out, or write sky.model = \"constant\"");

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <limits>
 #include <vector>
 
 /// The fog of a scene: analytic media and the screen-space filter that shows them (docs/fog.md).
 namespace lumulus::scene {
 
-enum class MediumKind { homogeneous, exponential, sphere };
+enum class MediumKind { homogeneous, exponential, sphere, ellipsoid, box };
 
 /// An analytic medium. Its coefficients hold where the relative density ϱ is 1.
 struct FogMedium {
@@ -20,6 +21,10 @@ struct FogMedium {
     glm::dvec3 offset{0.0};               ///< exponential: a point where ϱ = 1
     glm::dvec3 center{0.0};               ///< sphere: ϱ = 1 − |x − center|²/radius² inside, 0 outside
     double radius = 100.0;                ///< sphere, metres
+    glm::dvec3 halfSize{100.0};           ///< ellipsoid, box around `center`: ϱ = 1 inside. Semi-axes or half edges
+    /// homogeneous, exponential: heights between which the medium lies, metres. Infinite where there is no such end
+    double bottom = -std::numeric_limits<double>::infinity();
+    double top = std::numeric_limits<double>::infinity();
 
     bool operator==(const FogMedium&) const = default;
 };
@@ -37,7 +42,7 @@ struct Fog {
     double separationSpread = 0.05;       ///< masked: largest spread of separated light, share of the height
     double separation = 1.0;              ///< masked: strength of the separation of bright near pixels
     double separationLevel = 0.7;         ///< masked: share of the level at which separated pixels are read
-    double skyDistance = 1e5;             ///< metres from the eye at which the fog ends
+    double skyDistance = 1e5;             ///< metres from the eye at which media without an end stop
     bool inscattering = true;             ///< reference: fog also scatters light that comes straight from sun and sky
     FogDepth depth = FogDepth::distance;  ///< meaning of the depth file of `lumulus composite`
     double near = 0.1, far = 1000.0;      ///< metres: range of a z-buffer

@@ -40,6 +40,7 @@ inline Key other(Text name, Type type, Text fallback, Text documentation, Setter
 /// Rows of other files.
 std::vector<Key> groundKeys();
 std::vector<Key> detailKeys();
+std::vector<Key> sequenceKeys();
 std::vector<Key> mapKeys();
 std::vector<Key> sunAndSkyKeys();
 std::vector<Key> atmosphereKeys();
@@ -47,5 +48,7 @@ std::vector<Key> timeKeys();  ///< time, moon, and what of the sun goes with the
 std::vector<Key> phaseKeys();
 std::vector<Key> fieldKeys();
 std::vector<Key> storageKeys();
+std::vector<Key> fogKeys();
+std::vector<Key> mediumKeys();
 
 }  // namespace lumulus::scene

@@ -5,25 +5,15 @@
 namespace lumulus::scene {
 namespace {
 
-constexpr double koschmieder = 3.912;  // −ln(0.02): optical depth at the visibility (Koschmieder 1924)
-
 constexpr std::array projections{Projection::perspective, Projection::orthographic, Projection::panorama};
 constexpr std::array exposureModes{ExposureMode::stops, ExposureMode::ev100, ExposureMode::automatic};
 constexpr std::array toneMaps{ToneMap::filmic, ToneMap::agx, ToneMap::aces, ToneMap::neutral, ToneMap::linear};
 constexpr std::array majorants{Majorant::automatic, Majorant::local, Majorant::global};
 constexpr std::array drawModes{DrawMode::march, DrawMode::billboards};
-constexpr std::array fogFilters{FogFilter::scatter, FogFilter::masked, FogFilter::naive, FogFilter::gather};
-constexpr std::array fogFetches{FogFetch::bilinear, FogFetch::linearBicubic, FogFetch::cubicBicubic};
-constexpr std::array fogDepths{FogDepth::distance, FogDepth::planar, FogDepth::zbuffer};
-constexpr std::array mediumKinds{MediumKind::homogeneous, MediumKind::exponential, MediumKind::sphere};
 constexpr std::array surfaceKinds{SurfaceKind::plane, SurfaceKind::sphere, SurfaceKind::disc};
 
 Cloud& cloudOf(Draft& d) {
     return d.scene.clouds.at(d.entry);
-}
-
-FogMedium& mediumOf(Draft& d) {
-    return d.scene.fog.media.at(d.entry);
 }
 
 Surface& surfaceOf(Draft& d) {
@@ -37,7 +27,7 @@ std::vector<Key> imageAndCameraKeys() {
                 [](Draft& d, const Value& v) { d.scene.image.width = static_cast<int>(v.integer); }),
         integer("image.height", {1.0, 16384.0}, "720", "Height of the picture in pixels.",
                 [](Draft& d, const Value& v) { d.scene.image.height = static_cast<int>(v.integer); }),
-        number("image.exposure", {-64.0, 64.0}, "0.0",
+        number("image.exposure", {-64.0, 64.0}, "(0.0; given, it changes the default of `exposure_mode`)",
                "Photographic stops, applied before the tone map of PNG files. EXR files stay linear.",
                [](Draft& d, const Value& v) { d.scene.image.exposure = v.number; }),
         choice(
@@ -84,7 +74,9 @@ std::vector<Key> cloudKeys() {
               "letter first; at most 64 of them, and not the name of a key.",
               [](Draft& d, const Value& v) { cloudOf(d).name = v.text; }),
         other("cloud.vdb", Type::path, "(none: a procedural cloud)",
-              "Name of an OpenVDB or NanoVDB file, instead of `procedural`.",
+              "Name of an OpenVDB or NanoVDB file, instead of `procedural`. With #### or %04d in it, each frame has a "
+              "file "
+              "of its own (docs/sequences.md).",
               [](Draft& d, const Value& v) { cloudOf(d).vdb = (d.folder / v.text).lexically_normal(); }),
         other("cloud.grid", Type::text, "\"\"",
               "Name of the grid, in any case; `density[1]` is the second of that name. Empty means `density`, or else "
@@ -145,20 +137,30 @@ std::vector<Key> preparationKeys() {
 
 std::vector<Key> photonMapAndDrawKeys() {
     return {
-        integer("photon_map.photons", {1.0, 1099511627776.0}, "2000000",
+        integer("photon_map.photons", {1.0, 1099511627776.0}, "(2000000; 6000000 where a cloud has flat voxels)",
                 "Number of photons in all generations together.",
-                [](Draft& d, const Value& v) { d.scene.photonMap.photons = v.integer; }),
+                [](Draft& d, const Value& v) {
+                    d.scene.photonMap.photons = v.integer;
+                    d.scene.photonMap.photonsGiven = true;
+                }),
         integer("photon_map.generations", {1.0, 4096.0}, "20", "Number of generations of photons in the map.",
                 [](Draft& d, const Value& v) { d.scene.photonMap.generations = static_cast<int>(v.integer); }),
         integer("photon_map.first_generation", {0.0, 4294963200.0}, "0",
                 "Index of the first generation. Another index gives an independent picture with the same seed.",
                 [](Draft& d, const Value& v) { d.scene.photonMap.firstGeneration = v.integer; }),
-        integer("photon_map.bands", {1.0, 8.0}, "4",
+        integer("photon_map.bands", {1.0, 8.0}, "(4; 8 where a cloud has flat voxels, unless `forward_cut` is given)",
                 "Bands of spherical harmonics in a collector, which has bands² coefficients.",
-                [](Draft& d, const Value& v) { d.scene.photonMap.bands = static_cast<int>(v.integer); }),
-        number("photon_map.forward_cut", {0.0, 90.0}, "15.0",
+                [](Draft& d, const Value& v) {
+                    d.scene.photonMap.bands = static_cast<int>(v.integer);
+                    d.scene.photonMap.directionsGiven = true;
+                }),
+        number("photon_map.forward_cut", {0.0, 90.0},
+               "(15.0; 6.0 where a cloud has flat voxels, unless `bands` are given)",
                "Angle in degrees. Scattering by less is treated as unscattered light. 0 means no forward cut.",
-               [](Draft& d, const Value& v) { d.scene.photonMap.forwardCut = v.number; }),
+               [](Draft& d, const Value& v) {
+                   d.scene.photonMap.forwardCut = v.number;
+                   d.scene.photonMap.directionsGiven = true;
+               }),
         choice(
             "photon_map.majorant", {"auto", "local", "global"}, "\"auto\"",
             "Majorant of the photon walk: one for the cloud (`global`) or a grid (`local`). `auto` takes the one with "
@@ -169,6 +171,15 @@ std::vector<Key> photonMapAndDrawKeys() {
                [](Draft& d, const Value& v) { d.scene.photonMap.memoryBudget = v.number; }),
         integer("photon_map.seed", seeds, "1", "Seed of the photons' random numbers.",
                 [](Draft& d, const Value& v) { d.scene.photonMap.seed = static_cast<std::uint64_t>(v.integer); }),
+        other("photon_map.transfer", Type::boolean, "false",
+              "Whether a frame of `render --frames` goes on with the light of the frame before it, carried along the "
+              "motion of the clouds: fewer photons a frame, and less flicker.",
+              [](Draft& d, const Value& v) { d.scene.photonMap.transfer = v.boolean; }),
+        integer(
+            "photon_map.transfer_frames", {0.0, 64.0}, "0",
+            "Frames that the light of a frame is the mean of, with `transfer`. 0: 8 where the motion of all clouds is "
+            "known, else 4.",
+            [](Draft& d, const Value& v) { d.scene.photonMap.transferFrames = static_cast<int>(v.integer); }),
         choice("draw.mode", {"march", "billboards"}, "\"march\"",
                "How a view is drawn: by a ray march or by billboards, which are faster and less exact.",
                [](Draft& d, const Value& v) { d.scene.draw.mode = drawModes.at(v.choice); }),
@@ -178,86 +189,6 @@ std::vector<Key> photonMapAndDrawKeys() {
                "differences of light, transmittance and depth are below the tolerance; other blocks are refined. "
                "0 draws every pixel.",
                [](Draft& d, const Value& v) { d.scene.draw.tolerance = v.number; }),
-    };
-}
-
-std::vector<Key> fogKeys() {
-    return {
-        choice("fog.filter", {"scatter", "masked", "naive", "gather"}, "\"scatter\"",
-               "How scattered light is spread over the picture: `scatter` conserves energy, `masked` (Elek 2013, Iser "
-               "2017) and `naive` gather from blurred copies, `gather` is the exact and slow reference.",
-               [](Draft& d, const Value& v) { d.scene.fog.filter = fogFilters.at(v.choice); }),
-        integer("fog.filter_size", {2.0, 6.0}, "4", "Width in taps of the filter between two levels: 2, 4 or 6.",
-                [](Draft& d, const Value& v) { d.scene.fog.filterSize = static_cast<int>(v.integer); }),
-        choice("fog.fetch", {"bilinear", "linear-bicubic", "cubic-bicubic"}, "\"linear-bicubic\"",
-               "Interpolation between the pixels of a level. `scatter` has linear and cubic interpolation only.",
-               [](Draft& d, const Value& v) { d.scene.fog.fetch = fogFetches.at(v.choice); }),
-        integer("fog.depth_lookups", {0.0, 4.0}, "2",
-                "For `masked`: number of corrections of the level by the blurred distance at the level before.",
-                [](Draft& d, const Value& v) { d.scene.fog.depthLookups = static_cast<int>(v.integer); }),
-        number(
-            "fog.sky_distance", {0.0, 1e9, true}, "100000.0",
-            "Distance in metres at which the fog ends. The sky and everything farther is seen through this much fog.",
-            [](Draft& d, const Value& v) { d.scene.fog.skyDistance = v.number; }),
-        other("fog.inscattering", Type::boolean, "true",
-              "For `lumulus reference`: with `false` the fog scatters only the light of surfaces and clouds, as the "
-              "filter "
-              "does, and no light straight from sun or sky.",
-              [](Draft& d, const Value& v) { d.scene.fog.inscattering = v.boolean; }),
-        choice("fog.depth", {"distance", "planar", "zbuffer"}, "\"distance\"",
-               "Meaning of the depth for `lumulus composite`: metres along the ray, metres along the view's axis, or a "
-               "z-buffer from 0 at `near` to 1 at `far`.",
-               [](Draft& d, const Value& v) { d.scene.fog.depth = fogDepths.at(v.choice); }),
-        number("fog.near", {0.0, 1e9, true}, "0.1",
-               "Distance in metres where the z-buffer is 0. In a reversed z-buffer it is beyond `far`.",
-               [](Draft& d, const Value& v) { d.scene.fog.near = v.number; }),
-        number("fog.far", {0.0, 1e9, true}, "1000.0", "Distance in metres where the z-buffer is 1.",
-               [](Draft& d, const Value& v) { d.scene.fog.far = v.number; }),
-        number("fog.separation.strength", unit, "1.0",
-               "For `masked`: share of the light of bright near pixels that is filtered separately. 0 means none.",
-               [](Draft& d, const Value& v) { d.scene.fog.separation = v.number; }),
-        number("fog.separation.luminance", {0.0, 1e9, true}, "3.0",
-               "Luminance in W/(m² sr) above which scattered light is separated. All of it is separated at twice that.",
-               [](Draft& d, const Value& v) { d.scene.fog.separationLuminance = v.number; }),
-        number(
-            "fog.separation.spread", {0.0, 1e3, true}, "0.05",
-            "Share of the picture's height. Light of a larger spread is not separated; all of it is below half that.",
-            [](Draft& d, const Value& v) { d.scene.fog.separationSpread = v.number; }),
-        number("fog.separation.level", unit, "0.7", "Factor for the level at which separated light is read.",
-               [](Draft& d, const Value& v) { d.scene.fog.separationLevel = v.number; }),
-    };
-}
-
-std::vector<Key> mediumKeys() {
-    return {
-        choice("fog.media.kind", {"homogeneous", "exponential", "sphere"}, "\"homogeneous\"",
-               "Kind of the relative density ϱ at x: 1; exp(-falloff ⟨x - offset, direction⟩); 1 - (r/radius)² at the "
-               "distance r from the center, 0 beyond the radius. Media add up.",
-               [](Draft& d, const Value& v) { mediumOf(d).kind = mediumKinds.at(v.choice); }),
-        rgb("fog.media.scattering", coefficients, "0.0", "Scattering coefficient where ϱ is 1, 1/m.",
-            [](Draft& d, const Value& v) { mediumOf(d).scattering = v.vector; }),
-        rgb("fog.media.absorption", coefficients, "0.0", "Absorption coefficient where ϱ is 1, 1/m.",
-            [](Draft& d, const Value& v) { mediumOf(d).absorption = v.vector; }),
-        number("fog.media.visibility", {0.0, 1e9, true}, "(scattering and absorption instead)",
-               "Visibility in metres, instead of `scattering` and `absorption`: the medium only scatters, by "
-               "3.912/visibility "
-               "where ϱ is 1 (Koschmieder: 2 % of the contrast is left at that distance).",
-               [](Draft& d, const Value& v) { mediumOf(d).scattering = glm::dvec3(koschmieder / v.number); }),
-        number("fog.media.g", {-1.0, 1.0, true, true}, "0.9", "Mean cosine of scattering.",
-               [](Draft& d, const Value& v) { mediumOf(d).g = v.number; }),
-        rgb("fog.media.emission", light, "0.0", "Radiance gained per metre where ϱ is 1, W/(m³ sr).",
-            [](Draft& d, const Value& v) { mediumOf(d).emission = v.vector; }),
-        number("fog.media.falloff", {0.0, 1e3}, "0.01", "For `exponential`: rate of the falloff, 1/m.",
-               [](Draft& d, const Value& v) { mediumOf(d).falloff = v.number; }),
-        other("fog.media.direction", Type::vector, "[0.0, 1.0, 0.0]",
-              "For `exponential`: direction towards thinner fog, of any length.",
-              [](Draft& d, const Value& v) { mediumOf(d).direction = v.vector; }),
-        other("fog.media.offset", Type::vector, "[0.0, 0.0, 0.0]", "For `exponential`: a point in metres where ϱ is 1.",
-              [](Draft& d, const Value& v) { mediumOf(d).offset = v.vector; }),
-        other("fog.media.center", Type::vector, "[0.0, 0.0, 0.0]", "For `sphere`: its center in metres.",
-              [](Draft& d, const Value& v) { mediumOf(d).center = v.vector; }),
-        number("fog.media.radius", {0.0, 1e9, true}, "100.0", "For `sphere`: its radius in metres.",
-               [](Draft& d, const Value& v) { mediumOf(d).radius = v.number; }),
     };
 }
 
@@ -284,9 +215,10 @@ std::vector<Key> surfaceKeys() {
 const std::vector<Key>& schema() {
     static const std::vector<Key> all = [] {
         std::vector<Key> keys;
-        for (const auto& part : {imageAndCameraKeys(), timeKeys(), sunAndSkyKeys(), atmosphereKeys(), mapKeys(),
-                                 groundKeys(), cloudKeys(), phaseKeys(), fieldKeys(), preparationKeys(), storageKeys(),
-                                 detailKeys(), photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys()}) {
+        for (const auto& part :
+             {imageAndCameraKeys(), timeKeys(), sunAndSkyKeys(), atmosphereKeys(), mapKeys(), groundKeys(), cloudKeys(),
+              sequenceKeys(), phaseKeys(), fieldKeys(), preparationKeys(), storageKeys(), detailKeys(),
+              photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys()}) {
             keys.insert(keys.end(), part.begin(), part.end());
         }
         return keys;

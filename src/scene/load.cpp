@@ -29,12 +29,19 @@ struct Sources {
     std::span<const std::string> overrides;
     std::optional<Quality> quality;
     std::span<const std::filesystem::path> folders;
+    double frame = 0.0;
 };
 
 /// Reads a scene. `current` becomes the index of the override that is looked up, nothing before and after.
 Scene readScene(const Sources& from, std::optional<std::size_t>& current) {
     Settings settings;
     settings.addFile(from.toml, from.name);
+    double fps = Draft().fps;
+    if (const toml::node* section = settings.animation()) {
+        const Animation animation(*section, from.name, from.folders);
+        settings.addAnimation(animation, from.frame);
+        fps = animation.fps();
+    }
     for (std::size_t i = 0; i < from.overrides.size(); ++i) {
         current = i;
         settings.addOverride(from.overrides[i]);
@@ -45,6 +52,8 @@ Scene readScene(const Sources& from, std::optional<std::size_t>& current) {
     draft.scene.source = from.name;
     draft.folder = std::filesystem::path(from.name).parent_path();
     draft.allowed = from.folders;
+    draft.frame = from.frame;
+    draft.fps = fps;
     draft.scene.fields.resize(settings.entries("field"));
     draft.scene.clouds.resize(settings.entries("cloud", draft.scene.fields.empty() ? 1 : 0));
     draft.scene.fog.media.resize(settings.entries("fog.media"));
@@ -153,16 +162,20 @@ std::string readSceneText(const std::filesystem::path& path) {
     return text;
 }
 
+SceneText sceneText(const std::filesystem::path& path) {
+    if (path == standardInput) return {readStandardInput(), "standard input"};
+    return {isCloudFile(path) ? sceneOf(path) : readSceneText(path), path.string()};
+}
+
 Scene loadScene(const std::filesystem::path& path, std::span<const std::string> overrides,
-                std::optional<Quality> quality) {
-    if (path != standardInput && isCloudFile(path)) return parseScene(sceneOf(path), path.string(), overrides, quality);
-    const std::string source = path == standardInput ? "standard input" : path.string();
-    return parseScene(readSceneText(path), source, overrides, quality);
+                std::optional<Quality> quality, double frame) {
+    const SceneText text = sceneText(path);
+    return parseScene(text.toml, text.source, overrides, quality, {}, frame);
 }
 
 Scene parseScene(std::string_view toml, const std::string& sourceName, std::span<const std::string> overrides,
-                 std::optional<Quality> quality, std::span<const std::filesystem::path> folders) {
-    const Sources from{toml, sourceName, overrides, quality, folders};
+                 std::optional<Quality> quality, std::span<const std::filesystem::path> folders, double frame) {
+    const Sources from{toml, sourceName, overrides, quality, folders, frame};
     std::optional<std::size_t> current;
     try {
         return readScene(from, current);

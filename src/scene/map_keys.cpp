@@ -8,8 +8,7 @@ std::vector<Key> mapKeys() {
             "sky.map", Type::path, "(none)",
             "For `map`: name of an EXR file, a latitude-longitude picture of the surroundings, twice as wide as high. "
             "The zenith is at its upper edge, -Z in the middle of its width and +X a quarter of the width to the "
-            "right of that (as `camera.projection = \"panorama\"` draws it towards -Z). Only `lumulus reference` "
-            "takes maps.",
+            "right of that (as `camera.projection = \"panorama\"` draws it towards -Z).",
             [](Draft& d, const Value& v) { d.scene.sky.map = (d.folder / v.text).lexically_normal(); }),
         number("sky.map_scale", {0.0, 1e9, true}, "1.0", "For `map`: factor for its values, which then are W/(m² sr).",
                [](Draft& d, const Value& v) { d.scene.sky.mapScale = v.number; }),

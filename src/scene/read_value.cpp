@@ -66,6 +66,15 @@ struct Reader {
         return {number(*array->get(0)), number(*array->get(1)), number(*array->get(2))};
     }
 
+    glm::dvec3 pair(const toml::node& node) const {
+        const auto* array = node.as_array();
+        if (array == nullptr || array->size() != 2) wrongType(node);
+        const auto first = integer(*array->get(0)), last = integer(*array->get(1));
+        if (last < first)
+            throw InputError(fmt::format("{} must rise, got [{}, {}]", shortName(), first, last), where, mend());
+        return {static_cast<double>(first), static_cast<double>(last), 0.0};
+    }
+
     glm::dmat4 matrix(const toml::node& node) const {
         const auto* rows = node.as_array();
         if (rows == nullptr || (rows->size() != 3 && rows->size() != 4)) wrongType(node);
@@ -172,6 +181,9 @@ Value readValue(const toml::node& node, const Key& key, const std::string& where
             break;
         case Type::vector:
             value.vector = reader.vector(node);
+            break;
+        case Type::pair:
+            value.vector = reader.pair(node);
             break;
         case Type::rgb:
             value.vector = node.is_array() ? reader.vector(node) : glm::dvec3(reader.number(node));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "scene/fog.h"
 #include "scene/sky.h"
 #include "scene/surface.h"
+#include "scene/voxels.h"
 
 /// The scene as values: the keys of the file, with every default filled in and every value checked.
 /// Units: metres, degrees (angles of the file), W·m⁻² and W·m⁻²·sr⁻¹ per channel, 1/m.
@@ -58,11 +60,43 @@ struct Phase {
     bool operator==(const Phase&) const = default;
 };
 
+/// What a cloud shows before the first and behind the last file of its sequence.
+enum class Extend { hold, repeat, pingPong, clip };
+
+/// The files of a cloud that is another one from frame to frame.
+struct FileSequence {
+    std::optional<glm::i64vec2> frames;  ///< first and last file; none: whatever there is
+    double fps = 0.0;                    ///< files a second; 0: as many as frames
+    double offset = 0.0, speed = 1.0;    ///< file = first + offset + speed · fps · seconds since the first one
+    Extend extend = Extend::hold;
+    bool holdMissing = false;  ///< whether the file before stands for one that is missing
+    bool interpolate = true;   ///< whether moments between two files show both, moved along their motion
+
+    bool operator==(const FileSequence&) const = default;
+};
+
+/// What of its sequence a cloud shows at a frame.
+struct SequenceMoment {
+    std::filesystem::path name;  ///< of the files, with the place for their number
+    double file = 0.0;           ///< number of the file that is shown; between two of them where `next` is
+    double fps = 24.0;           ///< files a second
+    std::filesystem::path next;  ///< file behind that of the cloud, where the moment lies between both; else empty
+
+    /// Of the way from the file to the next one, 0 to 1.
+    double share() const { return file - std::floor(file); }
+    bool operator==(const SequenceMoment&) const = default;
+};
+
 struct Cloud {
-    std::string name;           ///< empty: its index, see nameOf
-    std::filesystem::path vdb;  ///< empty: procedural
-    std::string grid;           ///< any case, `density[1]` for the second; empty: chosen by the names of all
-    bool clamp = false;         ///< values of the grid that are no densities become 0
+    std::string name;                      ///< empty: its index, see nameOf
+    std::filesystem::path vdb;             ///< empty: procedural
+    std::shared_ptr<const Voxels> voxels;  ///< in place of both; shared by copies of the scene, since it may be large
+    std::string grid;                      ///< any case, `density[1]` for the second; empty: chosen by the names of all
+    FileSequence sequence;                 ///< where the file's name has a place for a number
+    std::optional<SequenceMoment> moment;  ///< of a sequence: what of it is shown
+    std::optional<glm::dvec3> velocity;    ///< of what is in the files, where they do not tell [m/s]
+    std::string held;                      ///< the file that is missing, where the one before it stands for it
+    bool clamp = false;                    ///< values of the grid that are no densities become 0
     std::string procedural = "cumulus";
     int resolution = 192;  ///< voxels along the longest side of a procedural cloud
     std::uint64_t seed = 1;
@@ -103,9 +137,21 @@ struct PhotonMap {
     double memoryBudget = 1024.0;  ///< MiB on the GPU for the light of collectors
     std::uint64_t seed = 1;
     bool separateLights = false;  ///< whether the light of sun and of sky are kept apart
+    bool transfer = false;        ///< whether frames of a sequence go on with the light of those before
+    int transferFrames = 0;       ///< frames that the light of a frame is the mean of; 0: by what is known of motion
+    /// Whether the scene names them: otherwise clouds of flat voxels have their own (cloud/refined.h).
+    bool directionsGiven = false;  ///< bands or forward cut
+    bool photonsGiven = false;
 
     bool operator==(const PhotonMap&) const = default;
 };
+
+/// Frames at most that the light of a frame is the mean of.
+inline int mostFrames(const PhotonMap& map) {
+    constexpr int known = 8;  // where the motion is known, docs/experiments/transfer.md
+    if (!map.transfer) return 1;
+    return map.transferFrames > 0 ? map.transferFrames : known;
+}
 
 enum class DrawMode { march, billboards };
 
@@ -131,7 +177,8 @@ struct Scene {
     Draw draw;
     Fog fog;
     std::vector<Surface> surfaces;
-    std::string source;  ///< file name, for messages and the EXR header
+    std::string source;    ///< file name, for messages and the EXR header
+    double seconds = 0.0;  ///< time of the frame: fields have been carried by their wind so long
 
     bool operator==(const Scene&) const = default;
 };

@@ -44,6 +44,8 @@ std::string typeText(const Key& key) {
             return "true or false";
         case Type::vector:
             return "[x, y, z]";
+        case Type::pair:
+            return "[first, last]";
         case Type::rgb:
             return "a number or [r, g, b]";
         case Type::matrix:

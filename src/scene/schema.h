@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,7 +14,7 @@
 
 namespace lumulus::scene {
 
-enum class Type { number, integer, boolean, vector, rgb, matrix, text, path, time, choice };
+enum class Type { number, integer, boolean, vector, pair, rgb, matrix, text, path, time, choice };
 
 /// The range of a number, or of each component of a vector. NaN and infinity are always outside.
 struct Range {
@@ -31,7 +32,7 @@ struct Value {
     double number = 0.0;
     std::int64_t integer = 0;
     bool boolean = false;
-    glm::dvec3 vector{0.0};  ///< also RGB
+    glm::dvec3 vector{0.0};  ///< also RGB; x and y of a pair
     glm::dmat4 matrix{1.0};
     std::string text;        ///< also a choice or a time
     std::size_t choice = 0;  ///< index into the choices of the key
@@ -47,6 +48,8 @@ struct Draft {
     std::optional<double> azimuth, elevation;  ///< sun, degrees
     std::optional<std::size_t> skyPreset;      ///< of the air, which keys of their own change
     std::optional<double> moonAzimuth, moonElevation;
+    double frame = 0.0, fps = 24.0;               ///< of the animation
+    std::map<std::size_t, std::size_t> aerosols;  ///< by the index of the fog medium
 };
 
 /// One key of the scene file. The parser, its messages and docs/scene-format.md all come from these rows.

@@ -104,7 +104,8 @@ std::size_t entryIndex(const ArraySection& array, const std::string& path) {
 void Settings::addFile(std::string_view text, const std::string& source) {
     documents_.push_back(parseToml(text, source));
     const Origin origin{source};
-    for (const auto& [name, node] : documents_.back()) collect(node, std::string(name), std::string(name), origin);
+    for (const auto& [name, node] : documents_.back())
+        if (name != "animate") collect(node, std::string(name), std::string(name), origin);
 }
 
 void Settings::addOverride(std::string_view text) {
@@ -129,6 +130,20 @@ void Settings::addOverride(std::string_view text) {
         return;
     }
     collect(node, path, array == nullptr ? path : overriddenName(*array, path), Origin{});
+}
+
+void Settings::addAnimation(const Animation& animation, double frame) {
+    for (const AnimatedKey& key : animation.keys()) {
+        try {
+            addOverride(key.path + "=" + key.valueAt(frame));
+        } catch (const UnknownKey& e) {
+            throw InputError(e.what_, key.where, suggestKey(key.path));
+        } catch (const InputError& e) {
+            throw InputError(fmt::format("frame {}: {}", frame, e.what()), key.where, "");
+        }
+        if (const auto found = settings_.find(key.path); found != settings_.end())
+            found->second.where = fmt::format("{} at frame {}", key.where, frame);
+    }
 }
 
 /// The path with the index of an entry in the place of its name: "cloud.veil.albedo" → "cloud.1.albedo".

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "scene/animation.h"
 #include "scene/arrays.h"
 #include "scene/schema.h"
 #include "scene/toml.h"
@@ -39,6 +40,10 @@ class Settings {
     /// by its `name`. An override of one of two alternatives (`sun.azimuth`, `sun.direction_to`) takes the file's other
     /// one out. Errors: InputError.
     void addOverride(std::string_view text);
+    /// Sets the keys of an animation to their values at a frame, before any override. Errors: InputError.
+    void addAnimation(const Animation& animation, double frame);
+    /// The section [animate] of the file; null where there is none.
+    const toml::node* animation() const { return documents_.empty() ? nullptr : documents_.front().get("animate"); }
 
     const std::map<std::string, Setting>& all() const { return settings_; }
     const Setting* find(const std::string& path) const;

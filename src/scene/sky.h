@@ -38,6 +38,7 @@ struct Sky {
     double angstrom = 1.14;                 ///< atmosphere: its Ångström exponent
     double ozone = 300.0;                   ///< atmosphere: column in Dobson units
     glm::dvec3 groundAlbedo{0.2};           ///< atmosphere: of the planet, where the scene has no `ground`
+    bool groundBelowClouds = false;         ///< atmosphere: see groundedScene() in view/ground.h
     std::filesystem::path map;              ///< map: latitude-longitude EXR
     double mapScale = 1.0;                  ///< map: factor for its radiance
     double mapRotation = 0.0;               ///< map: degrees by which it is rotated, clockwise seen from above
@@ -67,6 +68,7 @@ struct Time {
 struct Ground {
     glm::dvec3 albedo{0.2};  ///< share of the light that is reflected, equally in all directions (Lambert)
     double height = 0.0;     ///< y of the ground, metres
+    glm::dvec2 foot{0.0};    ///< of a planet: x and z of the point above its centre, metres
 
     bool operator==(const Ground&) const = default;
 };

@@ -20,7 +20,8 @@ std::vector<Key> timeKeys() {
                [](Draft& d, const Value& v) { timeOf(d).latitude = v.number; }),
         number("time.longitude", {-180.0, 180.0}, "(required with `utc`)", "Degrees, east positive.",
                [](Draft& d, const Value& v) { timeOf(d).longitude = v.number; }),
-        other("moon.shines", Type::boolean, "false", "Whether the moon lights the scene, as a second sun.",
+        other("moon.shines", Type::boolean, "false",
+              "Under an atmosphere: whether the moon lights the scene, as a second sun.",
               [](Draft& d, const Value& v) { d.scene.moon.shines = v.boolean; }),
         number("moon.azimuth", {-360.0, 360.0}, "250.0", "Azimuth of the moon in degrees, as that of the sun.",
                [](Draft& d, const Value& v) { d.moonAzimuth = v.number; }),
@@ -33,7 +34,8 @@ std::vector<Key> timeKeys() {
         other("sun.refraction", Type::boolean, "false",
               "Whether the air lifts the sun's disc: by half a degree at the horizon. The light keeps its direction.",
               [](Draft& d, const Value& v) { d.scene.sun.refraction = v.boolean; }),
-        other("sun.limb_darkening", Type::boolean, "false", "Whether the sun's disc is darker towards its rim.",
+        other("sun.limb_darkening", Type::boolean, "(true under an atmosphere, else false)",
+              "Whether the sun's disc is darker towards its rim.",
               [](Draft& d, const Value& v) { d.scene.sun.limbDarkening = v.boolean; }),
     };
 }

@@ -9,6 +9,9 @@
 #include "base/text.h"
 #include "scene/alternatives.h"
 #include "scene/check_field.h"
+#include "scene/entry.h"
+#include "scene/file_sequence.h"
+#include "scene/finish_fog.h"
 #include "scene/finish_sky.h"
 #include "scene/phase_table_file.h"
 #include "scene/sun_and_moon.h"
@@ -83,69 +86,11 @@ void checkPhase(const Phase& phase, const std::string& cloud, const Settings& se
     check(".phase.table", phase.model == PhaseModel::table, "table");
 }
 
-/// An entry of an array whose kind decides which of its keys are read.
-struct Entry {
-    std::string path;  ///< "fog.media.0."
-    std::string name;  ///< "medium"
-    const Settings& settings;
-
-    /// Refuses a key that the kind does not use, unless --set has replaced the file's kind.
-    void checkRead(const char* key, bool read, const char* kinds) const {
-        const Setting* kind = settings.find(path + "kind");
-        const Setting* given = settings.find(path + key);
-        if (given == nullptr || read || (given->fromFile && kind != nullptr && !kind->fromFile)) return;
-        throw InputError(fmt::format("{} has no effect: the {} is not of the kind {}", key, name, kinds), given->where,
-                         fmt::format("leave it out, or write kind = {}", kinds));
-    }
-
-    /// Normalises the direction of a key. Errors: InputError if it has no length.
-    glm::dvec3 unitVector(const char* key, const glm::dvec3& direction) const {
-        const double length = glm::length(direction);
-        if (!(length > 1e-12)) {
-            throw InputError(fmt::format("{} must have a length", key), whereOf(settings, {(path + key).c_str()}),
-                             "give a direction, as [0, 1, 0]");
-        }
-        return direction / length;
-    }
-};
-
-void finishMedium(FogMedium& medium, std::size_t index, const Settings& settings) {
-    const Entry entry{fmt::format("fog.media.{}.", index), "medium", settings};
-    const auto check = [&](const char* key, MediumKind reader, const char* kind) {
-        entry.checkRead(key, medium.kind == reader, kind);
-    };
-    for (const char* key : {"falloff", "direction", "offset"}) check(key, MediumKind::exponential, "\"exponential\"");
-    for (const char* key : {"center", "radius"}) check(key, MediumKind::sphere, "\"sphere\"");
-    medium.direction = entry.unitVector("direction", medium.direction);
-}
-
 void finishSurface(Surface& surface, std::size_t index, const Settings& settings) {
     const Entry entry{fmt::format("surface.{}.", index), "surface", settings};
     entry.checkRead("normal", surface.kind != SurfaceKind::sphere, "\"plane\" or \"disc\"");
     entry.checkRead("radius", surface.kind != SurfaceKind::plane, "\"sphere\" or \"disc\"");
     surface.normal = entry.unitVector("normal", surface.normal);
-}
-
-void checkFog(const Fog& fog, const Settings& settings) {
-    if (fog.filterSize % 2 != 0) {
-        throw InputError(fmt::format("filter_size must be 2, 4 or 6, got {}", fog.filterSize),
-                         whereOf(settings, {"fog.filter_size"}), "leave it out for 4");
-    }
-    if (fog.near == fog.far) {
-        throw InputError("near and far are the same distance", whereOf(settings, {"fog.far", "fog.near"}),
-                         "give the distances where the z-buffer is 0 and 1");
-    }
-}
-
-/// True if the file lies in one of the folders, with links followed, or if no folders are given.
-bool isAllowed(const std::filesystem::path& file, std::span<const std::filesystem::path> folders) {
-    if (folders.empty()) return true;
-    std::error_code ec;
-    const std::filesystem::path real = std::filesystem::weakly_canonical(file, ec);
-    return !ec && std::ranges::any_of(folders, [&](const std::filesystem::path& folder) {
-        const std::filesystem::path base = std::filesystem::weakly_canonical(folder, ec);
-        return !ec && std::ranges::mismatch(base, real).in1 == base.end();
-    });
 }
 
 /// Refuses a file of the key `path` that does not exist or may not be read. `kind`: "an OpenVDB file".
@@ -226,6 +171,16 @@ void checkName(const std::vector<Cloud>& clouds, std::size_t index, const Settin
 
 }  // namespace
 
+bool isAllowed(const std::filesystem::path& file, std::span<const std::filesystem::path> folders) {
+    if (folders.empty()) return true;
+    std::error_code ec;
+    const std::filesystem::path real = std::filesystem::weakly_canonical(file, ec);
+    return !ec && std::ranges::any_of(folders, [&](const std::filesystem::path& folder) {
+        const std::filesystem::path base = std::filesystem::weakly_canonical(folder, ec);
+        return !ec && std::ranges::mismatch(base, real).in1 == base.end();
+    });
+}
+
 Scene finishScene(Draft draft, const Settings& settings) {
     checkAlternatives(settings);
     checkImage(draft.scene.image, settings);
@@ -235,8 +190,9 @@ Scene finishScene(Draft draft, const Settings& settings) {
     checkSkyMap(draft.scene, draft.allowed, settings);
     finishSunDistance(draft, settings);
     for (std::size_t i = 0; i < draft.scene.clouds.size(); ++i) {
-        const Cloud& cloud = draft.scene.clouds[i];
+        Cloud& cloud = draft.scene.clouds[i];
         const std::string path = fmt::format("cloud.{}", i);
+        chooseFile(cloud, draft.frame, draft.fps, draft.allowed, whereOf(settings, {(path + ".vdb").c_str()}));
         checkName(draft.scene.clouds, i, settings);
         checkPhase(cloud.phase, path, settings);
         checkPhaseTable(cloud.phase, path, draft.allowed, settings);
@@ -244,9 +200,9 @@ Scene finishScene(Draft draft, const Settings& settings) {
         checkFile(cloud.instances, path + ".instances", "a CSV file of places", draft.allowed, settings);
     }
     for (std::size_t i = 0; i < draft.scene.fields.size(); ++i) checkField(draft.scene, i, settings);
-    checkFog(draft.scene.fog, settings);
-    for (std::size_t i = 0; i < draft.scene.fog.media.size(); ++i) finishMedium(draft.scene.fog.media[i], i, settings);
+    finishFog(draft, settings);
     for (std::size_t i = 0; i < draft.scene.surfaces.size(); ++i) finishSurface(draft.scene.surfaces[i], i, settings);
+    draft.scene.seconds = draft.frame / draft.fps;
     return std::move(draft.scene);
 }
 

@@ -15,12 +15,6 @@ constexpr double ozoneMiddle = 25000.0, ozoneHalfWidth = 15000.0;  // m
 constexpr double aerosolAlbedo = 0.92;
 constexpr double perKilometre = 1e-3;
 
-/// Reflectance at the four wavelengths of what is seen as this RGB: grey stays grey, and the matrix gives back the
-/// colour to within a tenth.
-Spectrum reflectance(const glm::dvec3& rgb) {
-    return {rgb.b, rgb.g, 0.75 * rgb.g + 0.25 * rgb.r, rgb.r};
-}
-
 /// Hillaire (2020): 440, 550 and 680 nm stand for blue, green and red; the fourth lane repeats the third and is unused.
 Air hillaire(const scene::Sky& sky) {
     Air air;
@@ -30,7 +24,7 @@ Air hillaire(const scene::Sky& sky) {
     air.aerosolExtinction = perKilometre * Spectrum(0.00444);
     air.ozone = perKilometre * Spectrum(0.000085, 0.001881, 0.00065, 0.00065);
     air.asymmetry = 0.8;
-    air.groundAlbedo = {sky.groundAlbedo.b, sky.groundAlbedo.g, sky.groundAlbedo.r, sky.groundAlbedo.r};
+    air.groundAlbedo = air.reflectance(sky.groundAlbedo);
     // the three are taken for the primaries of Rec. 709, with the sun's colour of the other media
     air.colours = {{0.0, 0.0, 185.23}, {0.0, 189.23, 0.0}, {210.45, 0.0, 0.0}, {0.0, 0.0, 0.0}};
     return air;
@@ -46,6 +40,19 @@ AirDensity airDensity(double height) {
 
 double moleculePhase(double cosine) {
     return 3.0 / (16.0 * pi) * (1.0 + cosine * cosine);
+}
+
+Spectrum Air::reflectance(const glm::dvec3& rgb) const {
+    Spectrum made(rgb.r);  // 640 and 680 nm
+    for (int i = 0; i < 4; ++i) {
+        if (wavelengths[i] < 480.0)
+            made[i] = rgb.b;
+        else if (wavelengths[i] < 555.0)
+            made[i] = rgb.g;
+        else if (wavelengths[i] < 600.0)
+            made[i] = 0.75 * rgb.g + 0.25 * rgb.r;
+    }
+    return made;
 }
 
 double Air::aerosolPhase(double cosine) const {
@@ -89,7 +96,7 @@ Air airOf(const scene::Sky& sky) {
     }
     air.aerosolScattering = aerosolAlbedo * air.aerosolExtinction;
     air.ozone = sky.ozone / 300.0 * perKilometre * Spectrum(0.000085, 0.001149, 0.002293, 0.001431);
-    air.groundAlbedo = reflectance(sky.groundAlbedo);
+    air.groundAlbedo = air.reflectance(sky.groundAlbedo);
     air.colours = {{10.10, -13.65, 165.14}, {-143.93, 114.73, 66.37}, {205.85, 92.38, -45.35}, {138.43, -4.23, -0.93}};
     return air;
 }

@@ -35,6 +35,9 @@ struct Air {
     }
     /// Linear Rec. 709 of a transfer [W/m²]; negative where the colour lies outside.
     glm::dvec3 rgb(const Spectrum& transfer) const { return colours * transfer; }
+    /// Reflectance at the wavelengths of what is seen as this RGB. Grey stays grey, and the matrix gives back the
+    /// colour to within a tenth.
+    Spectrum reflectance(const glm::dvec3& rgb) const;
     /// The sun's irradiance above the air at its mean distance, Rec. 709 [W/m²].
     glm::dvec3 sunAbove() const { return rgb(Spectrum(1.0)); }
     /// Phase function of aerosol [1/sr] (Cornette and Shanks 1992).

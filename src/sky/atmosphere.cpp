@@ -24,7 +24,9 @@ Air airAbove(scene::Sky sky, const std::optional<scene::Ground>& ground) {
 }  // namespace
 
 Atmosphere::Atmosphere(const scene::Sky& sky, const std::optional<scene::Ground>& ground, double angularDiameter)
-    : Atmosphere(airAbove(sky, ground), ground ? ground->height : 0.0, angularDiameter) {}
+    : Atmosphere(airAbove(sky, ground), ground ? ground->height : 0.0, angularDiameter) {
+    if (ground) foot_ = ground->foot;
+}
 
 Atmosphere::Atmosphere(const Air& air, double groundHeight, double angularDiameter)
     : discRadius_(0.5 * glm::radians(std::max(angularDiameter, 1e-3))),
@@ -32,14 +34,23 @@ Atmosphere::Atmosphere(const Air& air, double groundHeight, double angularDiamet
       air_(air),
       multiple_(air_, columns_, discRadius_) {}
 
+Atmosphere Atmosphere::withGround(const glm::dvec3& albedo) const {
+    Air air = air_;
+    air.groundAlbedo = air.reflectance(albedo);
+    Atmosphere made(air, groundHeight_, glm::degrees(2.0 * discRadius_));
+    made.foot_ = foot_;
+    return made;
+}
+
 double Atmosphere::heightAt(const glm::dvec3& point) const {
     const double y = point.y - groundHeight_;
-    const double q = y * (2.0 * planetRadius + y) + point.x * point.x + point.z * point.z;
+    const glm::dvec2 aside = glm::dvec2(point.x, point.z) - foot_;
+    const double q = y * (2.0 * planetRadius + y) + glm::dot(aside, aside);
     return q / (planetRadius + std::sqrt(std::max(0.0, planetRadius * planetRadius + q)));
 }
 
 glm::dvec3 Atmosphere::upAt(const glm::dvec3& point) const {
-    return glm::normalize(glm::dvec3(point.x, point.y - groundHeight_ + planetRadius, point.z));
+    return glm::normalize(glm::dvec3(point.x - foot_.x, point.y - groundHeight_ + planetRadius, point.z - foot_.y));
 }
 
 AirPoint Atmosphere::at(const glm::dvec3& point, const glm::dvec3& direction, const glm::dvec3& toSun) const {
@@ -99,7 +110,16 @@ void Atmosphere::extend(AirLight& light, const AirPoint& from, double length, in
 
 glm::dvec3 Atmosphere::radiance(const glm::dvec3& point, const glm::dvec3& direction, const glm::dvec3& toSun) const {
     const AirPoint from = at(point, direction, toSun);
-    return glm::max(air_.rgb(sky(from).light(air_, from.toSun)), glm::dvec3(0.0));
+    const AirLight light = sky(from);
+    const bool ground = std::isfinite(distanceToGround(from.height, from.up));
+    return glm::max(air_.rgb(light.light(air_, from.toSun)), glm::dvec3(0.0)) + night(ground, light.transmittance);
+}
+
+glm::dvec3 Atmosphere::night(bool ground, const Spectrum& transmittance) const {
+    if (transmittance == Spectrum(1.0)) return glm::dvec3(0.0);
+    const glm::dvec3 light(nightLuminance / lumensPerWatt);
+    if (!ground) return light;
+    return light * (1.0 - air_.rgb(transmittance * (1.0 - air_.groundAlbedo)) / sunAbove());
 }
 
 glm::dvec3 Atmosphere::sunIrradiance(const glm::dvec3& point, const glm::dvec3& toSun) const {

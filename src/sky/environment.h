@@ -7,6 +7,7 @@
 #include "scene/scene.h"
 #include "shared/environment.h"
 #include "sky/atmosphere.h"
+#include "sky/map_sky.h"
 
 namespace lumulus::sky {
 
@@ -24,17 +25,27 @@ struct AerialPerspective {
 };
 
 /// What surrounds the world. Everybody who needs light of the sky asks here and nowhere else. A constant sky has the
-/// same radiance from everywhere, and no air; an atmosphere is lit by the sun, whose irradiance counts above the air.
-/// Lengths are metres, directions unit vectors.
+/// same radiance from everywhere, and no air; an atmosphere is lit by the sun, whose irradiance counts above the air; a
+/// map has radiances of its own, and no air. Lengths are metres, directions unit vectors.
 class Environment {
   public:
-    /// Makes the tables of an atmosphere. `angularDiameter`: of the sun, degrees.
-    Environment(const scene::Sky& sky, const std::optional<scene::Ground>& ground = {}, double angularDiameter = 0.53);
+    /// Makes the tables of an atmosphere, or reads a map. `moon`: a second sun of the atmosphere (moonOf()).
+    /// `angularDiameter`: of the sun, degrees. Errors: those of MapSky.
+    Environment(const scene::Sky& sky, const std::optional<scene::Ground>& ground = {}, double angularDiameter = 0.53,
+                const std::optional<scene::Sun>& moon = {});
 
-    /// The air, or null where the sky is constant.
+    /// The air, or null where there is none.
     const Atmosphere* atmosphere() const { return atmosphere_.get(); }
+    /// The map, or null where the sky is none.
+    const MapSky* map() const { return map_.get(); }
+    /// The moon of an atmosphere, where it shines; its irradiance counts above the air.
+    const std::optional<scene::Sun>& moon() const { return moon_; }
+    /// Whether its light is the same from everywhere.
+    bool isConstant() const { return !atmosphere_ && !map_; }
+    /// The sun of a scene, or that which was taken out of the map in its stead.
+    scene::Sun sunOf(const scene::Sun& sun) const { return map_ && map_->sun() ? *map_->sun() : sun; }
 
-    /// Radiance that arrives at a point from a direction, without the sun's disc [W/(m² sr)].
+    /// Radiance that arrives at a point from a direction, without the discs of sun and moon [W/(m² sr)].
     glm::dvec3 radiance(const glm::dvec3& point, const glm::dvec3& direction, const scene::Sun& sun) const;
     /// Mean of the radiance over all directions.
     glm::dvec3 meanRadiance(const glm::dvec3& point, const scene::Sun& sun) const;
@@ -52,12 +63,17 @@ class Environment {
     EnvironmentSample sample(const glm::dvec2& u) const;
     /// Flux [W] into a box through all its faces; `faceArea` holds the area vectors of one of each pair of them [m²].
     glm::dvec3 fluxThrough(const glm::dmat3& faceArea) const;
-    /// For shaders; black where the sky is an atmosphere, which passes of its own show.
+    /// For shaders; black where the sky differs by direction, which passes of its own show.
     shared::EnvironmentParams params() const { return {glm::vec3(radiance_)}; }
 
   private:
     glm::dvec3 radiance_;
     std::shared_ptr<const Atmosphere> atmosphere_;  ///< immutable; shared by copies
+    std::shared_ptr<const MapSky> map_;             ///< as that
+    std::optional<scene::Sun> moon_;
 };
+
+/// The moon of a scene as a second sun, as large as the first; none where it does not shine, or there is no atmosphere.
+std::optional<scene::Sun> moonOf(const scene::Scene& scene);
 
 }  // namespace lumulus::sky

@@ -34,6 +34,13 @@ class MultipleScattering {
     Spectrum groundIrradiance(double sun) const;
     int orders() const { return orders_; }
 
+    // For those who look at many points at once.
+    struct Incident;
+    const std::vector<Incident>& incident() const { return incident_; }
+    const Spectrum& molecules() const { return molecules_; }
+    const Spectrum& aerosol() const { return aerosol_; }
+    const std::array<float, highestDegree + 1>& aerosolMoments() const { return aerosolMoments_; }
+
     static constexpr int sunTexels = 32, heightTexels = 24;
     /// Coefficients of light that is symmetric about the plane of the upward direction and the sun.
     struct Incident {

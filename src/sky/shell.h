@@ -17,14 +17,14 @@ inline double heightAlong(double height, double up, double t) {
     return q / (planetRadius + std::sqrt(std::max(0.0, planetRadius * planetRadius + q)));
 }
 
-/// Cosine at which a ray from this height touches the ground.
-inline double horizonCosine(double height) {
-    return -std::sqrt(height * (2.0 * planetRadius + height)) / (planetRadius + height);
+/// Cosine at which a ray from this height touches the ground, or a sphere around the planet `floor` metres above it.
+inline double horizonCosine(double height, double floor = 0.0) {
+    return -std::sqrt((height - floor) * (2.0 * planetRadius + (height + floor))) / (planetRadius + height);
 }
 
-/// Distance to the ground [m], or infinity.
-inline double distanceToGround(double height, double up) {
-    const double b = (planetRadius + height) * up, c = height * (2.0 * planetRadius + height);
+/// Distance to the ground, or to such a sphere from above it [m], or infinity.
+inline double distanceToGround(double height, double up, double floor = 0.0) {
+    const double b = (planetRadius + height) * up, c = (height - floor) * (2.0 * planetRadius + (height + floor));
     const double root = b * b - c;
     if (b >= 0.0 || root < 0.0) return std::numeric_limits<double>::infinity();
     return c / (-b + std::sqrt(root));

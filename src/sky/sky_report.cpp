@@ -52,9 +52,10 @@ struct Diffuse {
 
 SkyReport reportSky(const scene::Scene& scene, const glm::dvec3& point) {
     const Environment environment(scene.sky, scene.ground, scene.sun.angularDiameter);
+    const scene::Sun sun = environment.sunOf(scene.sun);
     const glm::dvec3 moonAbove = scene.sun.irradiance * scene::moonShare(scene.moon.phaseAngle);
     SkyReport report;
-    report.sun = luminary(environment, point, scene.sun.directionTo, scene.sun.irradiance);
+    report.sun = luminary(environment, point, sun.directionTo, sun.irradiance);
     report.moon = luminary(environment, point, scene.moon.directionTo, moonAbove);
     report.refraction = scene::refraction(report.sun.elevation);
     report.moonPhaseAngle = scene.moon.phaseAngle;
@@ -63,8 +64,10 @@ SkyReport reportSky(const scene::Scene& scene, const glm::dvec3& point) {
         sky.add(*atmosphere, point, scene.sun.directionTo, scene.sun.irradiance);
         if (scene.moon.shines) sky.add(*atmosphere, point, scene.moon.directionTo, moonAbove);
         sky.illuminance += std::numbers::pi * nightLuminance;
-        sky.zenith += nightLuminance;
-        sky.horizon += nightLuminance;
+    } else if (const MapSky* map = environment.map()) {
+        sky.illuminance = photometric(map->irradiance({0.0, 1.0, 0.0}));
+        sky.zenith = photometric(map->radiance({0.0, 1.0, 0.0}));
+        sky.horizon = photometric(map->radiance(scene::skyDirection(report.sun.azimuth + 180.0, 2.0)));
     } else {
         sky.zenith = sky.horizon = photometric(environment.radiance(point, {0.0, 1.0, 0.0}, scene.sun));
         sky.illuminance = std::numbers::pi * sky.zenith;

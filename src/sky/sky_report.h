@@ -6,9 +6,6 @@
 
 namespace lumulus::sky {
 
-/// Luminance of the night sky without a moon, 21.9 mag/arcsec² [cd/m²].
-inline constexpr double nightLuminance = 1.9e-4;
-
 /// A sun or moon as it is seen from a point.
 struct Luminary {
     double elevation = 0.0;        ///< degrees above the horizon, without refraction

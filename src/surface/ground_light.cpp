@@ -166,6 +166,22 @@ void GroundLight::setSun(const query::Media& media, const scene::Sun& sun, doubl
     sun_.outside = outside;
 }
 
+void GroundLight::setSky(const glm::dvec3& radiance) {
+    openSky_ = pi * radiance;
+}
+
+std::array<glm::dvec2, 2> GroundLight::shaded() const {
+    std::array<glm::dvec2, 2> corners{glm::dvec2(1e300), glm::dvec2(-1e300)};
+    for (const GroundGrid* grid : {&sun_, &sky_, &clouds_}) {
+        if (grid->nodes.x == 0) continue;
+        const glm::dvec2 spacing = (grid->upper - grid->lower) / glm::dvec2(glm::max(grid->nodes - 1, glm::ivec2(1)));
+        const glm::dvec2 moved = grid == &clouds_ ? glm::dvec2(0.0) : drift_;
+        corners = {glm::min(corners[0], grid->lower - spacing + moved),
+                   glm::max(corners[1], grid->upper + spacing + moved)};
+    }
+    return corners;
+}
+
 glm::dvec3 GroundLight::directRadiance(const glm::dvec2& place) const {
     return ground_.albedo / pi * (openSun_ * sun_.at(place - drift_) + openSky_ * sky_.at(place - drift_));
 }

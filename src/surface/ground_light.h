@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -31,6 +32,8 @@ class GroundLight {
 
     /// Sets the sun, of which the shadow is known at about so many nodes. Errors: as above.
     void setSun(const query::Media& media, const scene::Sun& sun, double nodes, const Check& check);
+    /// Sets the radiance of the sky, which is the same everywhere [W/(m² sr)].
+    void setSky(const glm::dvec3& radiance);
     /// Moves the shadows by so far along x and z from where they were made [m].
     void setDrift(const glm::dvec2& drift) { drift_ = drift; }
 
@@ -41,6 +44,8 @@ class GroundLight {
     /// The same without the light that clouds send down, and where nothing is above.
     glm::dvec3 directRadiance(const glm::dvec2& place) const;
     glm::dvec3 openRadiance() const;
+    /// Where radiance() may differ from openRadiance(): corners, x and z [m].
+    std::array<glm::dvec2, 2> shaded() const;
     /// Sets the irradiance by light that clouds send down [W/m²].
     void setClouds(GroundGrid irradiance);
 

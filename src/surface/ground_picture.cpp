@@ -66,10 +66,7 @@ void hideSun(std::vector<shared::SunPixel>& sun, const std::vector<GroundPixel>&
 
 void addGround(LayeredImage& image, const std::vector<GroundPixel>& ground, const glm::dvec3& sky) {
     const std::array<float*, 3> colours{image.layer("R").data(), image.layer("G").data(), image.layer("B").data()};
-    const float* passed = image.layer("transmittance.R").data();
     const float* covered = image.layer("cloud.A").data();  // less than is hidden: a forward peak is seen through
-    float* depth = image.layer("depth.Z").data();
-    float* front = image.layer("depth.front").data();
     const glm::vec3 behind(sky);
     for (std::size_t i = 0; i < ground.size(); ++i) {
         const GroundPixel& seen = ground[i];
@@ -77,6 +74,17 @@ void addGround(LayeredImage& image, const std::vector<GroundPixel>& ground, cons
         for (int c = 0; c < 3; ++c)
             colours[static_cast<std::size_t>(c)][i] +=
                 (1.0F - covered[i]) * seen.share * (seen.radiance[c] - behind[c]);
+    }
+    addGroundDepth(image, ground);
+}
+
+void addGroundDepth(LayeredImage& image, const std::vector<GroundPixel>& ground) {
+    const float* passed = image.layer("transmittance.R").data();
+    float* depth = image.layer("depth.Z").data();
+    float* front = image.layer("depth.front").data();
+    for (std::size_t i = 0; i < ground.size(); ++i) {
+        const GroundPixel& seen = ground[i];
+        if (!(seen.share > 0.0F)) continue;
         front[i] = std::min(front[i], seen.distance);
         const float hidden = 1.0F - passed[i], shown = passed[i] * seen.share;
         const float cloud = hidden > 0.0F ? hidden * depth[i] : 0.0F;

@@ -33,4 +33,7 @@ void hideSun(std::vector<shared::SunPixel>& sun, const std::vector<GroundPixel>&
 /// depth.front are those of clouds and ground together.
 void addGround(LayeredImage& image, const std::vector<GroundPixel>& ground, const glm::dvec3& sky);
 
+/// The depths alone.
+void addGroundDepth(LayeredImage& image, const std::vector<GroundPixel>& ground);
+
 }  // namespace lumulus::surface

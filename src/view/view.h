@@ -32,6 +32,9 @@ struct View {
     std::optional<Frustum> frustum;         ///< instead of the angle; perspective only
     std::optional<Tile> tile;               ///< drawn alone, bit for bit as in the whole
     int mostRays = 4;                       ///< along each side of a pixel, where pixels are larger than voxels
+    bool coarse = false;                    ///< to be enlarged: light in larger cells, fewer texels of air before the
+                                            ///< clouds, and the sky of an eye nearby serves
+    bool sunDisc = true;                    ///< whether the sun's disc is seen where nothing is before it
 
     bool operator==(const View&) const = default;
 };

@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "vdb/load.h"
+#include "vdb/load_array.h"
 #include "vdb/procedural.h"
 #include "vdb/transform.h"
+#include "volume/between_files.h"
 #include "volume/load_bricks.h"
 #include "volume/source.h"
 #include "volume/summary.h"
@@ -16,27 +18,28 @@ namespace {
 
 constexpr double bytesPerMiB = 1048576.0;
 
-/// What a field depends on: clouds that agree in it share the field.
-auto sourceOf(const scene::Cloud& cloud) {
-    const bool file = !cloud.vdb.empty();
-    return std::tuple(cloud.vdb, file ? cloud.grid : std::string(), file ? std::string() : cloud.procedural,
-                      file ? 0 : cloud.resolution, file ? 0 : cloud.seed, file && cloud.clamp);
-}
-
 /// MiB at the two bytes that a voxel takes on the GPU.
 double sizeOf(const vdb::Volume& volume) {
     return 2.0 * static_cast<double>(volume.density.size()) / bytesPerMiB;
 }
 
+vdb::DensityArray arrayOf(const scene::Voxels& voxels) {
+    return {voxels.name, voxels.size, voxels.edges, voxels.origin, voxels.values};
+}
+
 vdb::LoadResult load(const scene::Cloud& cloud, std::size_t index, double memoryBudget, const Report& report,
                      const vdb::ReadLimits& limits) {
-    if (!cloud.vdb.empty()) {
+    if (cloud.voxels || !cloud.vdb.empty()) {
         report("loading the cloud", 0, 1);
-        vdb::LoadResult loaded = vdb::load(cloud.vdb, {.grid = cloud.grid,
-                                                       .memoryBudgetMiB = memoryBudget,
-                                                       .clamp = cloud.clamp,
-                                                       .keys = "cloud." + std::to_string(index),
-                                                       .limits = limits});
+        const vdb::LoadOptions options{.grid = cloud.grid,
+                                       .memoryBudgetMiB = memoryBudget,
+                                       .clamp = cloud.clamp,
+                                       .keys = "cloud." + std::to_string(index),
+                                       .limits = limits};
+        const bool between = cloud.moment && !cloud.moment->next.empty();
+        vdb::LoadResult loaded = cloud.voxels ? vdb::loadArray(arrayOf(*cloud.voxels), options)
+                                 : between    ? loadBetween(cloud, index, memoryBudget, limits)
+                                              : vdb::load(cloud.vdb, options);
         report("loading the cloud", 1, 1);
         return loaded;
     }
@@ -155,6 +158,9 @@ CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const C
         const double extinction = scene.clouds[i].extinction * scene.clouds[i].densityScale;
         cloud.thickness = vdb::opticalThickness(sums[cloud.volume], cloud.toWorld, extinction);
     }
+    for (const scene::Cloud& cloud : scene.clouds)
+        if (!cloud.held.empty())
+            result.warnings.push_back(cloud.held + " does not exist: " + cloud.vdb.string() + " stands for it");
     for (std::string& warning : warningsOf(summarise(scene, result))) result.warnings.push_back(std::move(warning));
     return result;
 }

@@ -51,6 +51,7 @@ void addField(std::vector<scene::Cloud>& placed, const scene::Field& field, cons
         cloud.resolution = field.resolution;
         cloud.seed = variantSeed(field, places[i].variant);
         cloud.transform = places[i].place.transform();
+        cloud.transform[3] += glm::dvec4(scene.seconds * field.wind, 0.0);
         cloud.extinction = field.extinction * places[i].place.extinction;
         cloud.albedo = field.albedo;
         placed.push_back(std::move(cloud));

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <tuple>
 
 #include "scene/scene.h"
 #include "vdb/load.h"
@@ -11,6 +13,17 @@
 /// Sources of density fields (inside volume/ only).
 namespace lumulus {
 
+/// What a field depends on: clouds that agree in it share the field.
+inline auto sourceOf(const scene::Cloud& cloud) {
+    const bool made = cloud.vdb.empty() && !cloud.voxels;  // procedural
+    const bool file = !cloud.vdb.empty() && !cloud.voxels;
+    const bool between = file && cloud.moment && !cloud.moment->next.empty();
+    return std::tuple(cloud.voxels, file ? cloud.vdb : std::filesystem::path(), file ? cloud.grid : std::string(),
+                      made ? cloud.procedural : std::string(), made ? cloud.resolution : 0, made ? cloud.seed : 0,
+                      !made && cloud.clamp, between ? cloud.moment->file : 0.0,
+                      between ? cloud.velocity : std::nullopt);
+}
+
 /// A field as its source gives it, and how far its memory can be told.
 struct Source {
     const scene::Cloud* cloud;  ///< the first one of this source
@@ -18,7 +31,10 @@ struct Source {
     vdb::LoadResult loaded;
     vdb::SparseVolume bricks;  ///< of a file whose field is in bricks; `loaded` has no values then
 
-    bool isFile() const { return !cloud->vdb.empty(); }
+    /// Between two files of a sequence: made of both, in voxels.
+    bool isBetween() const { return cloud->moment && !cloud->moment->next.empty(); }
+    /// Whether the field lies in a file as it is.
+    bool isFile() const { return !cloud->vdb.empty() && !cloud->voxels && !isBetween(); }
     /// Metres from voxel coordinates under a transform of the scene.
     vdb::Affine placeUnder(const glm::dmat4& transform, const std::string& where) const {
         return vdb::composed(vdb::composeTransforms(transform, loaded.gridToWorld, where), loaded.voxelToGrid);

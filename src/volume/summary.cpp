@@ -39,7 +39,7 @@ std::vector<CloudSummary> summarise(const scene::Scene& scene, const CloudVolume
     for (std::size_t i = 0; i < volumes.clouds.size(); ++i) {
         const CloudVolumes::Cloud& cloud = volumes.clouds[i];
         clouds.push_back({scene::nameOf(scene, i),
-                          scene.clouds[i].vdb.string(),
+                          scene.clouds[i].voxels ? scene.clouds[i].voxels->name : scene.clouds[i].vdb.string(),
                           volumes.volumes[cloud.volume].name,
                           cloud.thickness.largestOfAll(),
                           cloud.thickness.meanOfAll(),

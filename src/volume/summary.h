@@ -35,6 +35,16 @@ struct CloudSummary {
     std::optional<BrickSummary> bricks = {};  ///< absent where the field is dense
 };
 
+/// What was prepared of one density field at one level of detail, and for how many clouds of the scene.
+struct AssetSummary {
+    std::array<int, 3> voxels{};  ///< along each edge
+    int level = 0;                ///< edges of its voxels are 2^level times those of the file
+    std::uint64_t collectors = 0, instances = 0;
+    /// Seconds of each part of the preparation: density onto the GPU, majorants with the bounds of the gradient,
+    /// samples of the gradient, the kD-tree over them, and collectors with the leaf of each voxel.
+    double upload = 0.0, majorants = 0.0, sampling = 0.0, tree = 0.0, collecting = 0.0;
+};
+
 /// A function that is told of a scene's clouds as soon as they are loaded, with what is warned of by then.
 using ToldOfClouds = std::function<void(std::span<const CloudSummary> clouds, std::span<const std::string> warnings)>;
 

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 from pathlib import Path
 
@@ -58,6 +59,13 @@ class CliTest(unittest.TestCase):
     def run_lumulus(self, *arguments, **options):
         return subprocess.run([LUMULUS, *map(str, arguments)], capture_output=True, text=True, timeout=120,
                               cwd=self.folder, **options)
+
+    def kill(self, seconds, *arguments):
+        """Starts the program, and kills it after so many seconds: it has no time to tidy up."""
+        process = subprocess.Popen([LUMULUS, *map(str, arguments), "--quiet"], cwd=self.folder)
+        time.sleep(seconds)
+        process.kill()
+        process.wait(timeout=60)
 
     def one_line(self, result, code):
         """Checks the exit code and the shape of the error; returns the line."""
@@ -338,6 +346,9 @@ class Rendering(CliTest):
         self.assertEqual(numbers["generations"], 2)
         self.assertEqual(numbers["absorbed"] + numbers["escaped"] + numbers["lost"], 2000)
         self.assertEqual(set(numbers["seconds"]), {"load", "prepare", "trace", "draw", "write", "total"})
+        self.assertEqual(set(numbers["preparation"]), {"upload", "majorants", "sampling", "tree", "collectors"})
+        self.assertLessEqual(sum(numbers["preparation"].values()), numbers["seconds"]["prepare"])
+        self.assertEqual([asset["instances"] for asset in numbers["assets"]], [1])
         self.assertTrue(numbers["passes"])
 
     def test_statistics_on_standard_output(self):

@@ -109,6 +109,17 @@ class Query(CliTest):
         self.assertEqual(open_sky, self.path)
         self.rejected("query", self.path, "--ambient", self.table("0,1,0\n0,-1,0\n"), says="row 2")
 
+    def test_ambient_under_an_atmosphere(self):
+        """The sun of a point is that of `lumulus sky` at a camera there, through the air."""
+        scene = '[sun]\nelevation = 12.0\n[sky]\nmodel = "atmosphere"\n[camera]\nposition = [0.0, 500.0, 0.0]\n'
+        self.scene("cloud = []\n" + scene)
+        row, higher = self.rows(self.ask("--ambient", self.table("0,500,0\n0,60000,0\n")))
+        result = self.run_lumulus("sky", self.path, "--json")
+        irradiance = json.loads(result.stdout)["sun"]["irradiance"]
+        for channel, expected in zip("rgb", irradiance):
+            self.assertAlmostEqual(row[f"sun_{channel}"], expected, delta=0.01 * expected)
+            self.assertGreater(higher[f"sun_{channel}"], 1.1 * expected)
+
     def test_bad_tables(self):
         for text, says in (("1,2,3,4,5\n", "table.csv:1): each row has the numbers x0,y0,z0,x1,y1,z1"),
                            ("x0,y0,z0,x1,y1,z1\n1,2,3,4,5,six\n", 'z1 = "six" is no number'),

@@ -10,9 +10,15 @@ set(tiny --width 32 --set cloud.0.resolution=24 --set photon_map.photons=4000 --
 lumulus_study(studies.scores scores ${tiny} --scenes cirrus --spp 2)
 lumulus_study(studies.unseen scores ${tiny} --unseen --scenes stratus-low-sun --spp 2)
 lumulus_study(studies.many_clouds many_clouds ${tiny} --numbers 1 3 --resolution 24 --photons 2000 --compare 3)
+lumulus_study(studies.many_clouds_truth many_clouds_truth --width 32 --scenes overlap --spp 2 --photons 2000
+              --set cloud.0.resolution=24 --set preparation.samples=500)
 lumulus_study(studies.scaling scaling ${tiny} --resolutions 24 --collectors 200 --photons 1000)
 lumulus_study(studies.bias_table bias_table ${tiny} --scenes smoke --spp 2 --fewer 1000)
-lumulus_study(studies.colour_specks colour_specks ${tiny} --scenes smoke --seeds 2)
+lumulus_study(studies.flat_voxels flat_voxels --spp 2 --set photon_map.photons=1000 --set photon_map.generations=2
+              --set preparation.samples=500 --set cloud.0.resolution=16)
+lumulus_study(studies.sequence sequence --width 32 --frames 3 --photons 4000 --alone 2 --kills 2
+              --set preparation.samples=100)
+lumulus_study(studies.colour_specks colour_specks ${tiny} --scenes smoke many --seeds 2)
 lumulus_study(studies.contact_sheet contact_sheet ${tiny} --scenes cirrus --spp 2 -o ${CMAKE_BINARY_DIR}/contact-sheet.png)
 lumulus_study(studies.hostile hostile --only "no HTTP" --seconds 1)
 add_test(NAME studies.tools COMMAND ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_LIST_DIR}/studies_test.py $<TARGET_FILE:lumulus>)
@@ -30,3 +36,7 @@ set_tests_properties(known.published_layers known.random_layers known.stiff_laye
                      PROPERTIES LABELS known-answer)
 # Their cases have limits of time of their own, on all cores.
 set_tests_properties(known.stiff_layers known.stiff_furnace known.stiff_fog PROPERTIES RUN_SERIAL TRUE)
+lumulus_study(studies.sky_journeys sky_journeys --width 32 --frames 2 2 --photons 4000 --set cloud.0.resolution=16
+              -o ${CMAKE_BINARY_DIR}/journeys)
+lumulus_study(studies.deforming deforming --width 32 --frames 3 --resolution 16 --photons 1000 --truth 4 --samples 500
+              --means 8)

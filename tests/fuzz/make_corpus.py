@@ -7,6 +7,7 @@ scripts/fuzz.sh takes the folder. For vdb it is what build/release/tests/make_vd
 import json
 import os
 import pathlib
+import re
 import struct
 import sys
 
@@ -71,9 +72,21 @@ def chunks_inputs():
 
 
 def scene_inputs():
-    """The shipped scenes, and one with what they do not have."""
-    scenes = pathlib.Path(__file__).resolve().parents[2] / "configs" / "scenes"
-    found = {path.stem: path.read_bytes() for path in scenes.glob("*.toml")}
+    """The shipped scenes, one for each value that docs/scene-format.md shows of a key, and one with the rest."""
+    root = pathlib.Path(__file__).resolve().parents[2]
+    found = {path.stem: path.read_bytes() for path in (root / "configs" / "scenes").glob("*.toml")}
+    section = ""
+    for line in (root / "docs" / "scene-format.md").read_text().splitlines():
+        if line.startswith("## "):
+            section = re.match(r"[\w.\[\]]*", line[3:]).group()
+            if section in ("[cloud.phase]", "[[fog.media]]", "[[surface]]"):
+                section = {"[cloud.phase]": "[[cloud]]\n"}.get(section, "cloud = []\n") + section
+        row = re.match(r"\| `(\w+)` \| (.*?) \| (.*?) \|", line)
+        if not row or not section:
+            continue
+        key, allowed, default = row.groups()
+        for value in sorted({*re.findall(r"`([^`]+)`", allowed + default), "[1, 2, 3]", "7", "true"}):
+            found[f"{key}-{len(found)}"] = f"{section}\n{key} = {value}\n".encode()
     found["rest"] = b"""cloud = []
 fog = { media = [{ kind = "height", visibility = 500, scale_height = 100 }], filter = "pyramid", near = 1, far = 9 }
 [sun]

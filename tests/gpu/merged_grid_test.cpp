@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <glm/gtx/component_wise.hpp>
 
 #include "shared/world.h"
 #include "support/cloud_cases.h"
@@ -56,7 +58,7 @@ TEST_F(MergedGridTest, BoundsAllCloudsAndLeavesNothingOut) {
     const std::vector<test::Field> fields{test::Field(ball), test::Field(lumps), test::Field(ball)};
     const ivec3 cells = grid.bricks * shared::MERGED_BRICK;
     int shared = 0;
-    for (int i = 0; i < 60'000; ++i) {
+    for (int i = 0; i < 120'000; ++i) {
         // points of a sequence that fills space evenly
         const dvec3 at =
             lower + (upper - lower) * glm::fract(dvec3(i) * dvec3(0.7548776662, 0.5698402910, 0.4301597090));
@@ -87,6 +89,28 @@ TEST_F(MergedGridTest, BoundsAllCloudsAndLeavesNothingOut) {
             EXPECT_EQ(cellAt(grid, other).majorant, 0.0F);
         }
     }
+}
+
+/// A cloud of a millionth of the size, or one 5,000 km away, does not make a grid of millions of cells or bricks.
+TEST_F(MergedGridTest, SpecksAndDistanceAskForNoMore) {
+    PrepareOptions options = test::prepareOptions(200);
+    options.keepBlocks = true;
+    const Asset ball = prepare(context, ballVolume(21, 10.0), options);
+    const auto edgeOf = [&](const std::vector<MergedSource>& clouds, const dvec3& upper) {
+        return mergedCellEdge(clouds, dvec3(-10.0), upper);
+    };
+    const MergedSource one{&ball, ball.voxelToMetres, dvec3(-10.0), 0.5};
+    MergedSource speck = one, small = one, far = one;
+    speck.voxelToMetres *= 1e-6;
+    small.voxelToMetres *= 0.5;
+    far.origin.x = 5e6;
+    const double six = 6.0 * std::cbrt(ball.voxelVolume);
+    EXPECT_DOUBLE_EQ(edgeOf({one, one}, dvec3(20.0)), six);
+    EXPECT_NEAR(edgeOf({one, small}, dvec3(20.0)), 0.5 * six, 1e-12);
+    EXPECT_GT(edgeOf({one, speck}, dvec3(20.0)), 1.0);
+    const dvec3 upper(5e6, 5e6, 20.0);
+    const double edge = edgeOf({one, far}, upper);
+    EXPECT_LT(glm::compMul(glm::ceil((upper + 10.0) / (8.0 * edge))), 1e6);
 }
 
 }  // namespace

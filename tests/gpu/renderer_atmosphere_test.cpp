@@ -9,6 +9,7 @@
 #include "render/renderer.h"
 #include "scene/sunlight.h"
 #include "sky/environment.h"
+#include "support/sky_pixels.h"
 #include "support/small_scene.h"
 #include "view/camera.h"
 
@@ -45,22 +46,9 @@ TEST(RendererAtmosphere, RecordsItsPassAndAConstantSkyDoesNot) {
 /// Pixels beside the cloud have the radiance that the environment answers.
 TEST(RendererAtmosphere, PixelsShowTheSkyAndTheGround) {
     for (const double elevation : {40.0, 3.0}) {
-        scene::Scene scene = sceneUnder(elevation);
-        scene.camera.position = dvec3(0.0, 60.0, 800.0);
-        scene.camera.target = dvec3(0.0, 100.0, 0.0);
-        scene.camera.verticalFov = 90.0;
-        const Frame frame = test::render(scene);
-        const sky::Environment environment = environmentOf(scene);
-        const Camera camera = makeCamera(scene.camera, scene.image, Bounds{});
-        for (const glm::ivec2 pixel : {glm::ivec2(2, 2), {16, 1}, {29, 7}, {1, 22}, {16, 21}}) {
-            const dvec3 direction = camera.ray(pixel.x + 0.5, pixel.y + 0.5).direction;
-            const dvec3 exact = environment.radiance(camera.position, direction, scene.sun);
-            for (int c = 0; c < 3; ++c) {
-                const float seen =
-                    frame.image.layers.at(names[c])[static_cast<std::size_t>(pixel.y * scene.image.width + pixel.x)];
-                EXPECT_NEAR(static_cast<double>(seen), exact[c], 0.01 * exact[c]) << elevation << " " << pixel.x;
-            }
-        }
+        SCOPED_TRACE(elevation);
+        const scene::Scene scene = sceneUnder(elevation);
+        test::expectPixelsOfTheSky(scene, environmentOf(scene));
     }
 }
 

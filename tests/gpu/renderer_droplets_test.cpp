@@ -34,7 +34,7 @@ dvec3 middleOf(const LayeredImage& image) {
 }
 
 TEST(Droplets, AThinCloudShowsTheirColours) {
-    const std::vector<phase::PhaseFunction> channels = phase::colourChannels(thinBall(0.0).clouds[0].phase);
+    const std::vector<phase::PhaseFunction> channels = phase::phaseColours(thinBall(0.0).clouds[0].phase).channels;
     const dvec3 first = middleOf(test::render(thinBall(90.0)).image);
     for (const double angle : {60.0, 135.0, 142.0, 150.0}) {
         const dvec3 seen = middleOf(test::render(thinBall(angle)).image);

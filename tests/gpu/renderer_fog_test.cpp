@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
+#include "base/error.h"
 #include "render/renderer.h"
 #include "support/small_scene.h"
 
@@ -22,6 +24,18 @@ scene::Scene foggy(double scattering, double absorption) {
     scene.fog.media.resize(1);
     scene.fog.media[0].scattering = glm::dvec3(scattering);
     scene.fog.media[0].absorption = glm::dvec3(absorption);
+    scene.fog.media[0].bottom = -1e3;
+    scene.fog.media[0].top = 2e3;
+    return scene;
+}
+
+/// Fog in a ball, which is shown by the filter.
+scene::Scene inABall(double scattering, double absorption) {
+    scene::Scene scene = foggy(scattering, absorption);
+    scene.fog.media[0] = {.kind = scene::MediumKind::sphere,
+                          .scattering = glm::dvec3(scattering),
+                          .absorption = glm::dvec3(absorption),
+                          .radius = 1e4};
     return scene;
 }
 
@@ -41,12 +55,16 @@ TEST(RendererFog, WithoutMediaNoPassOfItExists) {
 TEST(RendererFog, TheFrameStaysOnTheGpuUntilItIsSeenThroughTheFog) {
     EXPECT_THAT(test::render(foggy(1e-4, 0.0)).passes(),
                 ElementsAre("trace", "sort", "gather", "frame background", "shadow volume", "reconstruct",
+                            "light counts", "light field", "march", "frame band", "lit fog", "fog margin", "fog light",
+                            "fog down", "fog up", "fog spread", "frame download"));
+    EXPECT_THAT(test::render(inABall(1e-4, 0.0)).passes(),
+                ElementsAre("trace", "sort", "gather", "frame background", "shadow volume", "reconstruct",
                             "light counts", "light field", "march", "frame band", "fog split", "fog light", "fog down",
                             "fog up", "fog join", "frame download"));
 }
 
 TEST(RendererFog, WithoutACloudNothingIsFiltered) {
-    scene::Scene scene = foggy(1e-4, 0.0);
+    scene::Scene scene = inABall(1e-4, 0.0);
     scene.clouds.clear();
     scene.sun.directionTo = {0.0, -1.0, 0.0};
     EXPECT_THAT(test::render(scene).passes(),
@@ -69,7 +87,7 @@ TEST(RendererFog, ATileIsAsInTheWholePicture) {
 TEST(RendererFog, EachFilterRunsCleanUnderValidation) {
     for (const scene::FogFilter filter :
          {scene::FogFilter::scatter, scene::FogFilter::masked, scene::FogFilter::naive, scene::FogFilter::gather}) {
-        scene::Scene scene = foggy(1e-4, 1e-5);
+        scene::Scene scene = inABall(1e-4, 1e-5);
         scene.fog.filter = filter;
         const Frame frame = test::render(scene);
         EXPECT_THAT(frame.passes(), Contains("fog light"));
@@ -83,6 +101,7 @@ TEST(RendererFog, AUniformSkyStaysUniformButForWhatIsAbsorbed) {
     scene.clouds.clear();
     scene.sun.irradiance = glm::dvec3(0.0);
     scene.sky.radiance = glm::dvec3(1.0);
+    scene.fog.media[0] = {.absorption = glm::dvec3(2e-5)};  // endless: it is seen up to the sky's distance
     const Frame frame = test::render(scene);
     for (const float value : frame.image.layers.at("R")) ASSERT_NEAR(value, std::exp(-2.0), 1e-5);
 }
@@ -101,6 +120,15 @@ TEST(RendererFog, FogDimsTheSunAtTheCloud) {
     layer.absorption = glm::dvec3(1.5 / 80000.0);  // optical depth 1 through the middle
     const double dimmed = sumOf(test::render(scene).image.layers.at("cloud.G"));
     EXPECT_NEAR(dimmed / clear, std::exp(-1.0), 0.01);
+    layer = {.absorption = glm::dvec3(0.01), .bottom = 5e4, .top = 5e4 + 100.0};
+    const double below = sumOf(test::render(scene).image.layers.at("cloud.G"));
+    EXPECT_NEAR(below / clear, std::exp(-1.0), 1e-4);
+}
+
+TEST(RendererFog, EndlessFogAroundCloudsIsRefused) {
+    scene::Scene scene = foggy(1e-4, 0.0);
+    scene.fog.media[0].top = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(Renderer(scene, {.device = "", .validation = true}), InputError);
 }
 
 }  // namespace

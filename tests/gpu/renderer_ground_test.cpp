@@ -102,14 +102,14 @@ TEST(RendererGround, IsSeenThroughFog) {
     scene.clouds.clear();
     scene.fog.media.resize(1);
     scene.fog.media[0].absorption = dvec3(1e-3);
-    scene.fog.skyDistance = 2000.0;
+    scene.fog.media[0].bottom = scene.ground->height;
+    scene.fog.media[0].top = scene.ground->height + 2000.0;
     scene.sky.radiance = dvec3(0.0);
     lookDown(scene, {0.0, 500.0, 0.0});
     scene.camera.up = dvec3(0.0, 0.0, -1.0);
     const Frame frame = test::render(scene);
-    // down to the ground the sunlight has come through the fog up to where it ends, and 700 m on the way back
-    const double wanted =
-        scene.ground->albedo.x / pi * scene.sun.irradiance.x * std::exp(-1e-3 * (700.0 + scene.fog.skyDistance));
+    // down to the ground the sunlight has come through all of the fog, and 700 m on the way back
+    const double wanted = scene.ground->albedo.x / pi * scene.sun.irradiance.x * std::exp(-1e-3 * (700.0 + 2000.0));
     EXPECT_NEAR(middleOf(frame.image, "R"), wanted, 1e-3 * wanted);
 }
 

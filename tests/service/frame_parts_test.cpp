@@ -44,6 +44,19 @@ TEST(CostModel, ForeseesWhatItHasSeen) {
     EXPECT_DOUBLE_EQ(costs.traceMs(), 50.0);
 }
 
+/// The light of reduced pictures is coarse.
+TEST(CostModel, KnowsReducedPicturesByThemselves) {
+    CostModel costs;
+    costs.drawn({1, 1, 100'000, 0}, {10.0, 100.0, 0.0, 113.0});
+    CostModel::Work work{2, 2, 100'000, 0, 3};
+    EXPECT_DOUBLE_EQ(costs.drawMs(work), 126.0);
+    work = CostModel::reduced(work, 2, 100'000);
+    EXPECT_DOUBLE_EQ(costs.drawMs(work), 25.0 + 3 * 10.0 + 2 * 3.0) << "not known yet: as whole ones";
+    costs.drawn({2, 2, 25'000, 100'000}, {4.0, 25.0, 2.0, 33.0});  // 2 ms of light, 1 ms for a view
+    EXPECT_DOUBLE_EQ(costs.drawMs(work), 25.0 + 3 * 2.0 + 2 * 1.0 + 2.0);
+    EXPECT_DOUBLE_EQ(costs.drawMs({2, 2, 100'000, 0}), 126.0) << "whole ones cost what they did";
+}
+
 TEST(CostModel, OneSlowFrameIsNotTheRule) {
     CostModel costs;
     for (const double milliseconds : {20.0, 21.0, 900.0}) costs.traced(milliseconds);

@@ -370,10 +370,12 @@ class Ending(unittest.TestCase):
             self.check_shut_down(server, client, request)
 
     def test_fails_what_takes_too_long(self):
-        server = Server(LUMULUS, limits="shutdown_seconds = 0.2")
+        # many short steps and little memory, so that a busy machine can end it too
+        server = Server(LUMULUS, scene=SCENE + "[draw]\ntolerance = 0\n", limits="shutdown_seconds = 0.2")
         with server.client() as client:
             client.frame(width=16, height=16)
-            request = client.send("frame", {"width": 3300, "height": 2500})
+            view = {"width": 640, "height": 400, "camera": {"position": [0, 100, 150], "target": [0, 100, 0]}}
+            request = client.send("frame", {"views": [view] * 16})
             time.sleep(0.5)
             self.check_shut_down(server, client, request)
 

@@ -1,7 +1,9 @@
 """Streams that ask for moments: which frame is for which moment, and the simulation time that comes back."""
 
+import re
 import time
 import unittest
+import urllib.request
 
 from server import SCENE, Server, ServiceTest
 
@@ -59,6 +61,40 @@ class Preemption(unittest.TestCase):
         self.assertGreaterEqual(traced, generations - 1, "streams do not keep the photons from being traced")
         self.assertLess(usual, 0.5 * each)
         self.assertGreater(len(waits), 20)
+
+
+class Newcomers(unittest.TestCase):
+    def test_streams_do_not_wait_for_light_that_nobody_sees(self):
+        """The default scene gets its photons while nobody streams, and not beside the stream of another scene."""
+        server = Server(scene=SCENE.replace("generations = 4", "generations = 4000"))
+        self.addCleanup(server.stop)
+        with server.client() as client:
+            client.load_scene(toml=SCENE.replace("generations = 4", "generations = 1").replace("24", "20"))
+            wishes = {"width": 32, "height": 24, "every": 50, "budget": {"milliseconds": 50}}
+            stream = client.start_stream(**wishes)
+            client.next_frame(stream)
+
+            def streamed():
+                for i in range(20):
+                    client.start_stream(stream, time=i, **wishes)
+                    client.next_frame(stream)
+
+            beside = self.rate(server, streamed)
+            client.stop_stream(stream)
+            alone = self.rate(server, lambda: time.sleep(1))
+        print(f"generations a second: {beside:.1f} beside a stream, {alone:.1f} alone")
+        self.assertGreater(alone, 5)
+        self.assertLess(beside, 0.2 * alone, "but for moments in which the stream has what it asked for")
+
+    def rate(self, server, work):
+        """Generations a second while something is done."""
+        before, begin = self.generations(server), time.monotonic()
+        work()
+        return (self.generations(server) - before) / (time.monotonic() - begin)
+
+    def generations(self, server):
+        with urllib.request.urlopen(f"http://{server.http}/metrics") as reply:
+            return float(re.search(r"^lumulus_generations_total (\S+)$", reply.read().decode(), re.MULTILINE)[1])
 
 
 if __name__ == "__main__":

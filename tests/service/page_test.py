@@ -1,5 +1,6 @@
 """The page in headless Chromium: it shows the cloud, follows its controls, and survives the server's death."""
 
+import os
 import time
 import unittest
 
@@ -136,6 +137,27 @@ class Page(PageTest):
         self.assertEqual(browser.value("exposure"), 0)
         browser.wait(lambda: self.sun() == [35, 70])
         self.assertAlmostEqual(browser.value("elevation"), 35, delta=0.5)
+
+    def test_qualities(self):
+        """Each loads a scene that leaves its photons open with as many as it has, which the figures show; the link keeps
+        it."""
+        browser = self.browser
+        bare = self.server.write("scenes/bare.toml", '[[cloud]]\nprocedural = "sphere"\nresolution = 16\n')
+        self.addCleanup(os.remove, bare)
+        browser.open(self.server, "#scene=bare.toml")
+        for quality, samples in (("draft", "200 k photons"), ("interactive", "1.00 M photons")):
+            browser.set("quality", quality)
+            browser.wait(lambda: browser.figures()["samples"] == samples)
+            self.assertEqual(browser.link()["quality"], quality)
+        browser.set("quality", "final")
+        generation = 600  # thousands of photons, of 40
+        shown = [f"{generation} k photons"] + [f"{number * generation / 1e3:.2f} M photons" for number in range(2, 41)]
+        browser.wait(lambda: browser.figures()["samples"] in shown)
+        browser.open(self.server, browser.run("return location.hash"))
+        self.assertEqual(browser.run("return document.getElementById('quality').value"), "final")
+        browser.wait(lambda: browser.figures()["samples"] in shown)
+        self.assertEqual(browser.notices(), {})
+        self.assertEqual(browser.errors(), [])
 
     def sun(self):
         return [round(self.browser.value(name)) for name in ("elevation", "azimuth")]

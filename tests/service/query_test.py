@@ -58,13 +58,33 @@ class Queries(ServiceTest):
         dark = {i for i, share in enumerate(red) if share < 1}
         self.assertEqual(dark, {6 * row + column for row in (1, 2) for column in (2, 3)})
 
+    def test_ambient_light(self):
+        """Far from all clouds that is the sky's: L √4π in the first coefficient and nothing in the others, and the sun's
+        irradiance as the scene has it. Beside the ball there is light from its side."""
+        with self.server.client() as client:
+            sun = client.load_scene("small.toml")["original"]["sun"]["irradiance"]
+            client.frame()
+            rows = doubles(1e6, 1e6, 1e6, 0, 100, 150)
+            info, data = client.query("ambient", rows)
+            client.load_scene(toml="cloud = []\n[sky]\nradiance = [0.1, 0.2, 0.3]\n")
+            empty = floats(client.query("ambient", doubles(0, 0, 0))[1])
+        self.assertEqual((info["product"], info["width"], info["height"], info["channels"]), ("ambient", 2, 1, 30))
+        far, near = floats(data)[:30], floats(data)[30:]
+        for channel in range(3):
+            self.assertAlmostEqual(far[channel], sun[channel], delta=1e-5 * sun[channel])
+            self.assertAlmostEqual(empty[3 + channel], 0.1 * (channel + 1) * math.sqrt(4 * math.pi), delta=1e-3)
+        for values in (far, empty):
+            self.assertLess(max(abs(value) for value in values[6:]), 5e-3 * values[3])
+        self.assertNotAlmostEqual(near[9], 0, delta=0.02 * near[3])  # z: the ball is north of the point
+
     def test_refusals(self):
         with self.server.client() as client:
             for product, rows, fields, code, where in (
                     ("segments", b"", {}, "bad_request", ""), ("segments", bytes(40), {}, "bad_request", ""),
                     ("sun", doubles(1, 2, 3, math.nan, 5, 6), {}, "bad_request", "row 1"),
                     ("sun", doubles(1, 2, 2e9), {}, "bad_request", "row 0"),
-                    ("sun", bytes(24 * 262145), {}, "too_large", ""), ("moon", b"", {}, "bad_request", "products"),
+                    ("sun", bytes(24 * 262145), {}, "too_large", ""), ("ambient", bytes(24 * 65), {}, "too_large", ""),
+                    ("moon", b"", {}, "bad_request", "products"),
                     ("ground_shadow", b"", {}, "bad_request", "rectangle"),
                     ("ground_shadow", b"", {"rectangle": [0, 0, 0, 1]}, "bad_request", "rectangle"),
                     ("ground_shadow", b"", {"rectangle": [0, 0, 1, 1], "width": 0}, "bad_request", "width"),
@@ -134,6 +154,17 @@ class Moving(ServiceTest):
     def depth(self, client, x):
         """Optical depth from below to above at x."""
         return floats(client.query("segments", doubles(x, -500, 0, x, 500, 0))[1])[3]
+
+    def test_a_cloud_moves_above_a_ground(self):
+        """Its shadow on the ground is made anew on all threads, while others are drawn on one."""
+        ground = "[sky]\nmodel = \"constant\"\n[ground]\nheight = -2000\n"
+        with self.server.client() as client, self.server.client() as other:
+            for one in (client, other):
+                one.load_scene(toml=ground + TWO_CLOUDS)
+            for step in range(3):
+                client.change(cloud="west", move=[100 * step, 0, 0])
+                frame = client.frame(width=32, height=24, products=["transmittance"], encoding="float")
+                self.assertEqual(len(frame.values("transmittance")), 24)
 
     def test_a_cloud_moves_by_name(self):
         with self.server.client() as client, self.server.client() as other:

@@ -204,6 +204,45 @@ TEST(Requests, AChangeMayNameTheCloudOfItsExtinction) {
     EXPECT_EQ(refusal(request(MessageType::frame, R"({"extinction":0.1,"cloud":0})")), "bad_request: cloud");
 }
 
+TEST(Requests, AChangeListsWhatBecomesOfClouds) {
+    const auto change = [](const char* json) {
+        return std::get<Change>(parseRequest(request(MessageType::change, json), {})).edits;
+    };
+    const auto refused = [](const std::string& list) {
+        return refusal(request(MessageType::change, R"({"clouds":)" + list + "}"));
+    };
+    const std::vector<CloudEdit> edits = change(
+        R"({"clouds":[{"add":"b","like":"a","move":[1,2,3],"yaw":90,"scale":2,"albedo":[1,0.5,0]},{"remove":0},
+                      {"cloud":"b","g":0.5,"extinction":0.1}]})");
+    ASSERT_EQ(edits.size(), 3U);
+    EXPECT_EQ(edits[0].kind, CloudEdit::Kind::add);
+    EXPECT_EQ(edits[0].name, "b");
+    EXPECT_EQ(edits[0].cloud, CloudReference("a"));
+    EXPECT_EQ(edits[0].move, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(edits[0].albedo, glm::dvec3(1, 0.5, 0));
+    EXPECT_EQ(edits[0].yaw, 90.0);
+    EXPECT_EQ(edits[0].scale, 2.0);
+    EXPECT_EQ(edits[1].kind, CloudEdit::Kind::remove);
+    EXPECT_EQ(edits[1].cloud, CloudReference(0U));
+    EXPECT_EQ(edits[2].kind, CloudEdit::Kind::alter);
+    EXPECT_EQ(edits[2].asymmetry, 0.5);
+    EXPECT_EQ(edits[2].extinction, 0.1);
+    EXPECT_EQ(refused("[]"), "bad_request: clouds");
+    EXPECT_EQ(refused("[1]"), "bad_request: clouds[0]");
+    EXPECT_EQ(refused("[{}]"), "bad_request: clouds[0].cloud");
+    EXPECT_EQ(refused(R"([{"add":"b","remove":"a"}])"), "bad_request: clouds[0].cloud");
+    EXPECT_EQ(refused(R"([{"add":"b"}])"), "bad_request: clouds[0].like");
+    EXPECT_EQ(refused(R"([{"add":"","like":"a"}])"), "bad_request: clouds[0].add");
+    EXPECT_EQ(refused(R"([{"remove":"a","g":0}])"), "bad_request: clouds[0].g");
+    EXPECT_EQ(refused(R"([{"cloud":"a"}])"), "bad_request: clouds[0].cloud");
+    EXPECT_EQ(refused(R"([{"cloud":"a","yaw":1,"g":0}])"), "bad_request: clouds[0].yaw");
+    EXPECT_EQ(refused(R"([{"cloud":"a","g":1}])"), "bad_request: clouds[0].g");
+    EXPECT_EQ(refused(R"([{"cloud":"a","move":[1e999,0,0]}])"), "bad_request: ") << "JSON has no such number";
+    EXPECT_EQ(refused(R"([{"cloud":"a","move":[1e10,0,0]}])"), "bad_request: clouds[0].move");
+    EXPECT_EQ(refused(R"([{"add":"b","like":"a","scale":0}])"), "bad_request: clouds[0].scale");
+    EXPECT_EQ(refused(R"([{"cloud":"a","g":0}],"extinction":0.1)"), "bad_request: clouds");
+}
+
 TEST(Requests, AQueryNamesItsProductAndItsPlaces) {
     const auto query = std::get<QueryRequest>(parseRequest(
         request(MessageType::query, R"({"products":["ground_shadow"],"rectangle":[-1,-2,3,4],"y":5})"), {}));
@@ -217,6 +256,8 @@ TEST(Requests, AQueryNamesItsProductAndItsPlaces) {
     EXPECT_EQ(refused(R"({"products":["segments"]})", 0), "bad_request: ");
     EXPECT_EQ(refused(R"({"products":["segments"]})", 24), "bad_request: ");
     EXPECT_EQ(refused(R"({"products":["sun"]})", (mostQueryWays + 1) * 24), "too_large: ");
+    EXPECT_EQ(refused(R"({"products":["ambient"]})", mostAmbientPoints * 24), "taken");
+    EXPECT_EQ(refused(R"({"products":["ambient"]})", (mostAmbientPoints + 1) * 24), "too_large: ");
     EXPECT_EQ(refused("{}", 24), "bad_request: products");
     EXPECT_EQ(refused(R"({"products":["sun","segments"]})", 24), "bad_request: products");
     EXPECT_EQ(refused(R"({"products":["ground_shadow"],"rectangle":[0,0,1,1]})", 8), "bad_request: ");

@@ -22,6 +22,8 @@ SCENE = """
 [image]
 width = 64
 height = 48
+[sky]
+model = "constant"
 [[cloud]]
 procedural = "sphere"
 resolution = 24

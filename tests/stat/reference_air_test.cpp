@@ -7,6 +7,7 @@
 #include "reference/ground.h"
 #include "reference/tracer.h"
 #include "stat/ball.h"
+#include "stat/scattered_once.h"
 #include "support/deviation.h"
 #include "support/statistics.h"
 
@@ -49,53 +50,10 @@ double photometric(const dvec3& rgb) {
     return 683.0 * glm::dot(rgb, {0.2126, 0.7152, 0.0722});
 }
 
-/// Light of one scattering by numeric integration along the ray, at each wavelength.
-Four onceScattered(const Air& air, const AirMedium& medium, const Ray& ray, double length, const dvec3& toSun) {
-    const double away = oneMinusCosBetween(ray.direction, toSun);
-    constexpr int steps = 20'000;
-    Four sum(0.0);
-    for (int i = 0; i < steps; ++i) {
-        // steps grow with the distance
-        const double a = length * std::pow(static_cast<double>(i) / steps, 2.0);
-        const double b = length * std::pow(static_cast<double>(i + 1) / steps, 2.0), t = 0.5 * (a + b);
-        const dvec3 point = ray.origin + t * ray.direction;
-        const AirParts parts = airPartsAt(glm::distance(point, {0.0, -planetRadius, 0.0}) - planetRadius);
-        const Four scattering = parts.molecules * medium.molecules * air.phase(0).evaluate(away) +
-                                parts.aerosol * medium.aerosolScattering * air.phase(1).evaluate(away);
-        sum += air.transmittance(ray, t) * scattering * air.transmittance({point, toSun}, endless) * (b - a);
-    }
-    return sum;
-}
-
-/// A collision drawn for one wavelength has the right light at all of them, from a throughput of any colour.
 TEST(ReferenceAir, OneScatteringAgreesWithQuadrature) {
     const AirMedium medium = AirMedium::of(scene::Sky{});
-    const Air air(medium, 0.0);
-    const dvec3 toSun = scene::skyDirection(0.0, 20.0);
-    const Four throughput(1.0, 0.5, 0.0, 2.0);
-    Random random(41, 0, 0);
-    for (const double elevation : {60.0, 3.0}) {
-        const Ray ray{{0.0, 50.0, 0.0}, scene::skyDirection(40.0, elevation)};
-        const double length = 1200e3;
-        const Four expected = throughput * onceScattered(air, medium, ray, length, toSun);
-        RunningMean mean[4];
-        for (int i = 0; i < 60'000; ++i) {
-            Four light(0.0);
-            if (const auto collision = air.collide(ray, endless, throughput, random)) {
-                const Four left = air.scattered(ray, *collision, throughput);
-                EXPECT_LE(left.x + left.y + left.z + left.w, 3.5 * (1.0 + 1e-9)) << "light never grows";
-                const dvec3 point = ray.origin + collision->metres * ray.direction;
-                const double away = oneMinusCosBetween(ray.direction, toSun);
-                light = left * air.phase(collision->medium).evaluate(away) * air.transmittance({point, toSun}, endless);
-            }
-            for (int c = 0; c < 4; ++c) mean[c].add(light[c]);
-        }
-        for (int c = 0; c < 4; ++c) {
-            EXPECT_NEAR(mean[c].mean(), expected[c], 4.0 * mean[c].standardError() + 1e-5 * expected[c])
-                << elevation << "°, wavelength " << c;
-            EXPECT_LE(mean[c].standardError(), 0.01 * expected[c]);
-        }
-    }
+    const auto nothing = [](double, double) { return Four(0.0); };
+    expectOneScatteringOfQuadrature(Air(medium, 0.0), medium, nothing, {60.0, 3.0}, 60'000, 41, 1e-5);
 }
 
 /// What does not collide has the transmittance at each wavelength.

@@ -5,6 +5,7 @@
 
 #include "reference/tracer.h"
 #include "stat/ball.h"
+#include "stat/seen_light.h"
 #include "support/statistics.h"
 
 // Several clouds in the reference: what overlaps adds up, and what is apart shares its light.
@@ -24,27 +25,6 @@ scene::Scene sceneOf(int clouds, double extinction) {
         cloud.phase.g = 0.5;
     }
     return scene;
-}
-
-vdb::PlacedVolume shifted(const vdb::Volume& volume, const dvec3& by) {
-    return {volume, {volume.toWorld.linear, volume.toWorld.translation + by}};
-}
-
-struct Seen {
-    std::array<RunningMean, 3> channel;
-};
-
-Seen seen(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, const Ray& ray, int samples,
-          std::uint64_t seed) {
-    const PathTracer tracer(scene, volumes, Majorant::local);
-    Random random(seed, 0, 0);
-    Seen result;
-    for (int i = 0; i < samples; ++i) {
-        const PathSample sample = tracer.trace(ray, random);
-        const dvec3 radiance = sample.radiance + sample.passed * tracer.environment().unit();
-        for (int c = 0; c < 3; ++c) result.channel[static_cast<std::size_t>(c)].add(radiance[c]);
-    }
-    return result;
 }
 
 /// Shares of one cloud at one place are that cloud: radiance by a z-test, transmittance and distance to rounding.

@@ -16,16 +16,17 @@ namespace {
 using glm::dvec3;
 using test::RunningMean;
 
-constexpr double reach = 100.0;  ///< sky_distance, around the origin
+constexpr double reach = 100.0;  ///< radius of the fog, metres
 
-/// Fog up to `reach` around the origin, without lights.
+/// A ball of fog up to `reach` around the origin, without lights.
 scene::Scene fogScene(const dvec3& scattering, const dvec3& absorption, double g) {
     scene::Scene scene;
     scene.clouds.clear();
     scene.sun.irradiance = dvec3(0.0);
     scene.sky.radiance = dvec3(0.0);
-    scene.fog.skyDistance = reach;
     scene.fog.media.resize(1);
+    scene.fog.media[0].kind = scene::MediumKind::ellipsoid;
+    scene.fog.media[0].halfSize = dvec3(reach);
     scene.fog.media[0].scattering = scattering;
     scene.fog.media[0].absorption = absorption;
     scene.fog.media[0].g = g;
@@ -120,18 +121,28 @@ TEST(ReferenceFog, AnEmissiveWallFadesByBeerLambert) {
 
 /// Media add up, and the sky behind is seen through all of them.
 TEST(ReferenceFog, MediaMultiplyTheirTransmittances) {
+    const Ray up{dvec3(0.0), {0.0, 1.0, 0.0}};
     scene::Scene scene = fogScene(dvec3(0.0), dvec3(0.002, 0.004, 0.006), 0.0);
-    scene.fog.media.push_back(sphereMedium({0.0, 0.0, -30.0}, 10.0, dvec3(0.03, 0.02, 0.0)));
+    scene.fog.media.push_back(sphereMedium({0.0, 30.0, 0.0}, 10.0, dvec3(0.03, 0.02, 0.0)));
     scene.fog.media.push_back(exponentialMedium(dvec3(1e-4)));
+    scene.fog.media.back().direction = glm::normalize(dvec3(0.3, -1.0, 0.2));  // denser upwards
+    scene.fog.media.back().bottom = 10.0;
+    scene.fog.media.back().top = 60.0;
+    scene.fog.media.push_back({});
+    scene.fog.media.back().kind = scene::MediumKind::box;
+    scene.fog.media.back().center = dvec3(0.0, 80.0, 10.0);
+    scene.fog.media.back().halfSize = dvec3(5.0, 4.0, 11.0);
+    scene.fog.media.back().absorption = dvec3(0.0, 0.01, 0.02);
     scene.sky.radiance = dvec3(1.0, 2.0, 3.0);
     const double slope = 0.07 / std::sqrt(0.09 + 0.04 + 1.0);
     const dvec3 depth = reach * scene.fog.media[0].absorption + 40.0 / 3.0 * scene.fog.media[1].absorption +
-                        (std::exp(slope * reach) - 1.0) / slope * scene.fog.media[2].absorption;
-    seen(scene, 40'000).expectNear(scene.sky.radiance * glm::exp(-depth), "the sky");
+                        (std::exp(slope * 60.0) - std::exp(slope * 10.0)) / slope * scene.fog.media[2].absorption +
+                        8.0 * scene.fog.media[3].absorption;
+    seen(scene, 40'000, up).expectNear(scene.sky.radiance * glm::exp(-depth), "the sky");
     const PathTracer tracer(scene, {}, Majorant::global);
-    EXPECT_NEAR(glm::distance(tracer.integrate(ahead).transmittance, glm::exp(-depth)), 0.0, 1e-9);
-    EXPECT_EQ(tracer.integrate(ahead).clear, 1.0);
-    EXPECT_FALSE(tracer.front(ahead));
+    EXPECT_NEAR(glm::distance(tracer.integrate(up).transmittance, glm::exp(-depth)), 0.0, 1e-9);
+    EXPECT_EQ(tracer.integrate(up).clear, 1.0);
+    EXPECT_FALSE(tracer.front(up));
 }
 
 /// Without absorption every path keeps its weight: all is as bright as the sky, whatever stands in it.
@@ -254,7 +265,7 @@ TEST(ReferenceFog, EnergyOfALampLeavesTheFog) {
 TEST(ReferenceFog, EnergyOfALampLeavesACloud) {
     const vdb::Volume ball = ballVolume(16, 10.0);
     scene::Scene scene = fogScene(dvec3(0.01), dvec3(0.0), 0.6);
-    scene.fog.skyDistance = 15.0;
+    scene.fog.media[0].halfSize = dvec3(15.0);
     scene.clouds.resize(1);
     scene.clouds[0].extinction = 0.2;
     expectLampsEnergy(scene, 4.0, 20.0, {ball});
@@ -270,7 +281,7 @@ TEST(ReferenceFog, CloudAndFogMix) {
     const vdb::Volume ball = ballVolume(34, 10.0);
     const Ray ray{{0.0, 0.0, 50.0}, {0.0, 0.0, -1.0}};
     const PathTracer tracer(scene, {ball}, Majorant::global);
-    const dvec3 fogAlone = glm::exp(-(reach + 50.0) * scene.fog.media[0].absorption);
+    const dvec3 fogAlone = glm::exp(-(reach + ray.origin.z) * scene.fog.media[0].absorption);
     const RayIntegrals line = tracer.integrate(ray);
     EXPECT_NEAR(line.clear, std::exp(-1.0), 0.005);  // the voxels' stairs
     EXPECT_NEAR(glm::distance(line.transmittance, line.clear * fogAlone), 0.0, 1e-12);
@@ -282,13 +293,11 @@ TEST(ReferenceFog, CloudAndFogMix) {
     scene.sun.irradiance = dvec3(2.0);
     scene.fog.media.clear();
     const Seen whole = seen(scene, 60'000, ray, {ball});
-    // a sphere of fog that is homogeneous but for its reach, as large as the cloud
+    // a ball of fog as large as the cloud
     scene::Scene mixed = scene;
     mixed.clouds[0].extinction = 0.05;
-    mixed.fog.skyDistance = 10.0;
-    mixed.fog.media.resize(1);
-    mixed.fog.media[0].scattering = dvec3(0.05);
-    mixed.fog.media[0].g = 0.5;
+    mixed.fog = fogScene(dvec3(0.05), dvec3(0.0), 0.5).fog;
+    mixed.fog.media[0].halfSize = dvec3(10.0);
     const Seen halves = seen(mixed, 60'000, ray, {ball});
     const double error = std::hypot(whole.channel[0].standardError(), halves.channel[0].standardError());
     EXPECT_LT(error, 0.02 * whole.channel[0].mean());
@@ -298,7 +307,7 @@ TEST(ReferenceFog, CloudAndFogMix) {
 /// Fog that nobody sees the end of is given up, and counted, in bounded time.
 TEST(ReferenceFog, EndlessWhiteFogIsGivenUp) {
     scene::Scene scene = fogScene(dvec3(4.0), dvec3(0.0), 0.0);
-    scene.fog.skyDistance = 1e5;
+    scene.fog.media[0].halfSize = dvec3(1e5);
     scene.sky.radiance = dvec3(1.0);
     const PathTracer tracer(scene, {}, Majorant::global);
     Random random(13, 0, 0);
@@ -313,6 +322,7 @@ TEST(ReferenceFog, EndlessWhiteFogIsGivenUp) {
 TEST(ReferenceFog, ExtremesStayFinite) {
     scene::FogMedium layer;
     layer.kind = scene::MediumKind::exponential;
+    layer.bottom = -1e5;
     scene::FogMedium ball = sphereMedium({1e6, 0.0, 0.0}, 100.0, dvec3(0.0));
     Random random(14, 0, 0);
     for (const double falloff : {1e-9, 1e-3, 10.0, 1e3}) {
@@ -324,10 +334,10 @@ TEST(ReferenceFog, ExtremesStayFinite) {
                 layer.scattering = ball.scattering = 3.912 / visibility * dvec3(0.5, 0.1, 0.9);
                 layer.absorption = ball.absorption = 3.912 / visibility * dvec3(0.5, 0.9, 0.0);
                 layer.emission = ball.emission = dvec3(1e-3);
-                scene.fog = {.skyDistance = 1e5, .media = {layer, ball}};
+                scene.fog.media = {layer, ball};
                 scene.sun.irradiance = dvec3(1e5);
                 scene.sky.radiance = dvec3(1.0);
-                const PathTracer tracer(scene, {}, Majorant::global, {0.0, 1e4, 0.0});
+                const PathTracer tracer(scene, {}, Majorant::global);
                 for (const dvec3& direction : {dvec3(0.0, 1.0, 0.0), dvec3(0.0, -1.0, 0.0), dvec3(1.0, 0.0, 0.0)}) {
                     const Ray ray{{0.0, 1e4, 0.0}, direction};
                     const PathSample sample = tracer.trace(ray, random);

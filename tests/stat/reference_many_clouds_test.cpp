@@ -6,6 +6,7 @@
 
 #include "reference/tracer.h"
 #include "stat/ball.h"
+#include "stat/seen_light.h"
 #include "support/statistics.h"
 #include "support/test_volumes.h"
 
@@ -27,27 +28,6 @@ scene::Scene sceneOf(std::size_t clouds, double extinction) {
     }
     scene.sun.directionTo = glm::normalize(dvec3(1.0, 0.15, 0.1));
     return scene;
-}
-
-vdb::PlacedVolume shifted(const vdb::Volume& volume, const dvec3& by) {
-    return {volume, {volume.toWorld.linear, volume.toWorld.translation + by}};
-}
-
-struct Seen {
-    std::array<RunningMean, 3> channel;
-};
-
-Seen seen(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, const Ray& ray, int samples,
-          std::uint64_t seed) {
-    const PathTracer tracer(scene, volumes, Majorant::local);
-    Random random(seed, 0, 0);
-    Seen result;
-    for (int i = 0; i < samples; ++i) {
-        const PathSample sample = tracer.trace(ray, random);
-        const dvec3 radiance = sample.radiance + sample.passed * tracer.environment().unit();
-        for (int c = 0; c < 3; ++c) result.channel[static_cast<std::size_t>(c)].add(radiance[c]);
-    }
-    return result;
 }
 
 void expectAlike(const Seen& found, const Seen& expected, const std::string& what) {

@@ -1,91 +1,36 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <functional>
 #include <glm/gtc/constants.hpp>
 
-#include "base/error.h"
-#include "base/exr.h"
 #include "reference/tracer.h"
 #include "stat/ball.h"
 #include "support/deviation.h"
+#include "support/painted_map.h"
 #include "support/statistics.h"
-#include "support/temporary_folder.h"
 
 // A picture as the sky of the reference.
 namespace lumulus::reference {
 namespace {
 
 using glm::dvec3;
+using test::Paint;
+using test::painted;
 using test::RunningMean;
-using testing::AllOf;
-using testing::HasSubstr;
+using test::smooth;
+using test::withSpot;
 
 constexpr double pi = glm::pi<double>();
 
-using Paint = std::function<dvec3(const dvec3& direction)>;
-
-dvec3 directionOf(int x, int y, int width) {
-    const double azimuth = ((x + 0.5) / width - 0.5) * 2.0 * pi, down = (y + 0.5) / (width / 2) * pi;
-    return {std::sin(down) * std::sin(azimuth), std::cos(down), -std::sin(down) * std::cos(azimuth)};
-}
-
-LayeredImage painted(int width, const Paint& paint) {
-    LayeredImage image;
-    image.width = width;
-    image.height = width / 2;
-    for (const char* name : {"R", "G", "B"}) image.layer(name);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const dvec3 value = paint(directionOf(x, y, width));
-            const auto i = static_cast<std::size_t>(y * width + x);
-            image.layers["R"][i] = static_cast<float>(value.x);
-            image.layers["G"][i] = static_cast<float>(value.y);
-            image.layers["B"][i] = static_cast<float>(value.z);
-        }
-    return image;
-}
-
-class ReferenceMap : public testing::Test {
+class ReferenceMap : public test::PaintedMapTest<SkyMap> {
   protected:
-    scene::Sky skyOf(const LayeredImage& image) {
-        scene::Sky sky;
-        sky.model = scene::SkyModel::map;
-        sky.map = folder_.path() / "sky.exr";
-        writeExr(sky.map, image);
-        return sky;
-    }
-
     scene::Scene sceneOf(int width, const Paint& paint) {
         scene::Scene scene;
         scene.sun.irradiance = dvec3(0.0);
         scene.sky = skyOf(painted(width, paint));
         return scene;
     }
-
-    std::string messageOf(const scene::Sky& sky) {
-        try {
-            SkyMap map(sky);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
-    }
-
-    test::TemporaryFolder folder_;
 };
-
-/// Smooth, of another colour in each direction.
-dvec3 smooth(const dvec3& d) {
-    return {1.0 + 0.8 * d.x, 1.0 - 0.5 * d.z, 2.0 + d.y};
-}
-
-dvec3 withSpot(const dvec3& d) {
-    const double near = glm::dot(d, scene::skyDirection(40.0, 50.0));
-    return dvec3(0.2, 0.3, 0.5) + (near > std::cos(glm::radians(1.2)) ? dvec3(9000.0, 8000.0, 6000.0) : dvec3(0.0));
-}
 
 TEST_F(ReferenceMap, LooksWhereThePictureSays) {
     scene::Sky sky = skyOf(painted(256, smooth));
@@ -145,7 +90,7 @@ TEST_F(ReferenceMap, IrradianceIsTheMapsIntegral) {
     dvec3 irradiance(0.0);
     for (int y = 0; y < width / 4; ++y)
         for (int x = 0; x < width; ++x) {
-            const dvec3 d = directionOf(x, y, width);
+            const dvec3 d = test::mapDirection(x, y, width);
             const double angle =
                 2.0 * pi / width * (std::cos(2.0 * pi * y / width) - std::cos(2.0 * pi * (y + 1) / width));
             irradiance += withSpot(d) * d.y * angle;
@@ -213,27 +158,7 @@ TEST_F(ReferenceMap, LightsCloudsLikeEscapesAlone) {
 }
 
 TEST_F(ReferenceMap, BadMapsAreNamed) {
-    scene::Sky sky;
-    sky.model = scene::SkyModel::map;
-    EXPECT_THAT(messageOf(sky), HasSubstr("sky.map"));
-    sky.map = folder_.path() / "none.exr";
-    EXPECT_THAT(messageOf(sky), AllOf(HasSubstr("sky.map"), HasSubstr("none.exr")));
-    std::ofstream(folder_.path() / "text.exr") << "no picture";
-    sky.map = folder_.path() / "text.exr";
-    EXPECT_THAT(messageOf(sky), AllOf(HasSubstr("sky.map"), HasSubstr("text.exr")));
-    LayeredImage image = painted(8, smooth);
-    for (const float bad : {std::nanf(""), -1.0F, INFINITY}) {
-        image.layers["G"][11] = bad;
-        EXPECT_THAT(messageOf(skyOf(image)), AllOf(HasSubstr("sky.map"), HasSubstr("pixel (3, 1)")));
-    }
-    EXPECT_THAT(messageOf(skyOf(painted(8, [](const dvec3&) { return dvec3(0.0); }))), HasSubstr("black"));
-    image = painted(8, smooth);
-    image.layers.erase("B");
-    EXPECT_THAT(messageOf(skyOf(image)), HasSubstr("channel B"));
-    image = painted(8, smooth);
-    image.height = 2;
-    for (auto& [name, layer] : image.layers) layer.resize(16);
-    EXPECT_THAT(messageOf(skyOf(image)), AllOf(HasSubstr("8 × 2"), HasSubstr("twice as wide")));
+    expectBadMapsAreNamed();
 }
 
 }  // namespace

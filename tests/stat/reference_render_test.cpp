@@ -256,8 +256,10 @@ TEST(Reference, LayersOfFogAndSurfaces) {
     scene.camera.position = dvec3(0.0, 10.0, 0.0);
     scene.camera.target = dvec3(0.0, 10.0, -1.0);
     scene.surfaces.resize(1);
-    scene.fog.skyDistance = 50.0;
     scene.fog.media.resize(1);
+    scene.fog.media[0].kind = scene::MediumKind::ellipsoid;
+    scene.fog.media[0].center = scene.camera.position.value();
+    scene.fog.media[0].halfSize = dvec3(50.0);
     scene.fog.media[0].scattering = dvec3(0.01, 0.02, 0.03);
     Renderer renderer(scene, {}, Majorant::global, 1);
     for (int i = 0; i < 4; ++i) renderer.pass(goOn);
@@ -291,6 +293,8 @@ TEST(Reference, FogAndSurfacesAreInTheFingerprint) {
     EXPECT_EQ(print(), prints.front()) << "without media it changes nothing";
     scene.fog.media.resize(1);
     scene.fog.media[0].scattering = dvec3(0.1);
+    scene.fog.media[0].bottom = 0.0;
+    scene.fog.media[0].top = 10.0;
     changed("medium");
     scene.fog.inscattering = true;
     changed("in-scattering");
@@ -299,7 +303,11 @@ TEST(Reference, FogAndSurfacesAreInTheFingerprint) {
     scene.fog.media[0].emission.y = 0.1;
     changed("emission of a medium");
     scene.fog.skyDistance = 10.0;
-    changed("sky distance");
+    EXPECT_EQ(print(), prints.back()) << "it is for composite alone";
+    scene.fog.media[0].top = 20.0;
+    changed("top");
+    scene.fog.media[0].halfSize.z = 3.0;
+    changed("size of a medium");
     scene.surfaces.resize(1);
     changed("surface");
     scene.surfaces[0].emission.z = 1.0;

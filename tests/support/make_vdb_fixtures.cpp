@@ -113,9 +113,48 @@ void writeFire(const std::filesystem::path& path) {
     file.write(openvdb::GridPtrVec{flame, ballNamed("heat", 300.0F), ballNamed("Smoke")});
 }
 
+/// 10¹⁵ voxels: tiles of 4096³ in the root of the tree, of two densities, every other one.
+FloatGrid::Ptr manyTiles() {
+    constexpr int across = 25, edge = 4096;
+    auto grid = emptyGrid();
+    for (int i = 0; i < across * across * across; ++i) {
+        const Coord at(2 * edge * (i % across), edge * (i / across % across), edge * (i / across / across));
+        grid->tree().root().addTile(at, i % 2 == 0 ? 1.0F : 0.5F, true);
+    }
+    return grid;
+}
+
+/// Two voxels of one weight, as far apart as coordinates go.
+FloatGrid::Ptr twoFarVoxels() {
+    auto grid = emptyGrid();
+    grid->tree().setValue(Coord(-2'000'000'000), 1.0F);
+    grid->tree().setValue(Coord(2'000'000'000), 1.0F);
+    return grid;
+}
+
+/// A ball, and a grid that nobody asks for, of 100,000 leaves.
+void writeCrowded(const std::filesystem::path& path) {
+    auto other = FloatGrid::create(0.0F);
+    other->setName("temperature");
+    auto accessor = other->getAccessor();
+    for (int i = 0; i < 100'000; ++i)
+        accessor.setValue(Coord(8 * (i % 100), 8 * (i / 100 % 100), 8 * (i / 10'000)), 1.0F);
+    openvdb::io::File file(path.string());
+    file.write(openvdb::GridPtrVec{ball(), other});
+}
+
 void write(const std::filesystem::path& path, const openvdb::GridBase::Ptr& grid) {
     openvdb::io::File file(path.string());
     file.write(openvdb::GridPtrVec{grid});
+}
+
+/// The ball in a stream of `speed` m/s along x, whose grid lies so many voxels from it.
+void writeMoving(const std::filesystem::path& path, float speed, int away) {
+    auto velocity = openvdb::Vec3SGrid::create();
+    velocity->setName("Velocity");
+    velocity->setTransform(openvdb::math::Transform::createLinearTransform(voxelSize));
+    velocity->fill(openvdb::CoordBBox(Coord(away - 8, -8, -8), Coord(away + 8, 8, 8)), {speed, 0.0F, 0.0F});
+    openvdb::io::File(path.string()).write(openvdb::GridPtrVec{ball(), velocity});
 }
 
 }  // namespace
@@ -141,5 +180,12 @@ int main(int argc, char** argv) {
     write(folder / "thin.vdb", ballNamed("density", 1e-5F));
     write(folder / "small-negative.vdb", ballWith(-1e-7F));
     writeFire(folder / "fire.vdb");
+    write(folder / "many-tiles.vdb", manyTiles());
+    write(folder / "two-far-voxels.vdb", twoFarVoxels());
+    writeCrowded(folder / "crowded.vdb");
+    writeMoving(folder / "moving-0.vdb", 1.0F, 0);
+    writeMoving(folder / "moving-1.vdb", std::numeric_limits<float>::quiet_NaN(), 0);
+    writeMoving(folder / "moving-2.vdb", 1.0F, 0);
+    writeMoving(folder / "moving-3.vdb", 1.0F, 1000);
     return 0;
 }

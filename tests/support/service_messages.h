@@ -48,6 +48,7 @@ inline std::vector<Message> validMessages() {
         request(MessageType::statistics, "{}"),
         request(MessageType::ping, "{}"),
         request(MessageType::change, R"({"extinction":0.2})"),
+        request(MessageType::change, R"({"clouds":[{"add":"b","like":0,"yaw":10},{"remove":"b"},{"cloud":0,"g":0}]})"),
         request(MessageType::listUploads, "{}"),
         request(MessageType::deleteUpload, R"({"hash":"sha256:)" + hash + R"("})"),
         request(MessageType::listScenes, "{}"),

@@ -174,7 +174,8 @@ TEST(Atmosphere, IlluminanceOfTheGround) {
         {{60.0, 103e3}, {30.0, 46.3e3}, {10.0, 11.1e3}, {5.0, 4540.0}, {2.0, 1920.0}, {0.0, 759.0}}};
     for (const auto& row : day)
         EXPECT_NEAR((sunLux(row[0]) * sine(row[0]) + skyLux(row[0])) / row[1], 1.0, 0.35) << row[0];
-    const std::array<std::array<double, 2>, 4> twilight{{{-2.0, 189.0}, {-4.0, 29.9}, {-6.0, 3.41}, {-9.0, 0.116}}};
+    const std::array<std::array<double, 2>, 5> twilight{
+        {{-2.0, 189.0}, {-4.0, 29.9}, {-6.0, 3.41}, {-9.0, 0.116}, {-12.0, 0.0081}}};
     for (const auto& row : twilight) {
         EXPECT_LT(skyLux(row[0]), (row[0] < -8.0 ? 2.8 : 2.3) * row[1]) << row[0];
         EXPECT_GT(skyLux(row[0]), row[1] / 2.3) << row[0];
@@ -186,8 +187,21 @@ TEST(Atmosphere, IlluminanceOfTheSky) {
     EXPECT_NEAR(skyLux(60.0), 15.2e3, 0.08 * 15.2e3);
     EXPECT_NEAR(skyLux(30.0), 11.6e3, 0.03 * 11.6e3);
     EXPECT_NEAR(skyLux(10.0), 6.6e3, 0.03 * 6.6e3);
+    EXPECT_NEAR(skyLux(60.0) / (sunLux(60.0) * sine(60.0)), 0.157, 0.04 * 0.157);
+    EXPECT_NEAR(skyLux(30.0) / (sunLux(30.0) * sine(30.0)), 0.260, 0.03 * 0.260);
     EXPECT_NEAR(skyLux(10.0) / (sunLux(10.0) * sine(10.0)), 0.853, 0.03 * 0.853);
     EXPECT_NEAR(skyLux(5.0) / (sunLux(5.0) * sine(5.0)), 2.55, 0.03 * 2.55);
+}
+
+/// What is given in RGB counts at 560 nm by three quarters of G and a quarter of R.
+TEST(Air, GroundIsThreeQuartersGreenAt560) {
+    scene::Sky sky;
+    sky.groundAlbedo = {0.1, 0.2, 0.3};
+    const Spectrum albedo = airOf(sky).groundAlbedo;
+    EXPECT_NEAR(albedo[0], 0.3, 1e-12);
+    EXPECT_NEAR(albedo[1], 0.2, 1e-12);
+    EXPECT_NEAR(albedo[2], 0.175, 1e-12);
+    EXPECT_NEAR(albedo[3], 0.1, 1e-12);
 }
 
 /// METHODS, section 2: transmittance to the sun at 550 nm; here between those at 520 and 560 nm.

@@ -134,6 +134,66 @@ TEST_F(ExrClaims, WideBlocksOfRows) {
     }
 }
 
+TEST_F(ExrClaims, AttributesLongerThanTheFile) {
+    for (const std::int32_t bytes : {1885430528, std::numeric_limits<std::int32_t>::max(), -1}) {
+        write(4, 4, Imf::NO_COMPRESSION);
+        std::string text = test::readAll(file());
+        const std::string attribute("owner\0string\0", 13);
+        text.insert(8, attribute + std::string(reinterpret_cast<const char*>(&bytes), 4) + "me");
+        test::writeAll(file(), text);
+        EXPECT_NE(refusal(), "") << bytes;
+    }
+    write(4, 4, Imf::NO_COMPRESSION);
+    EXPECT_EQ(refusal(), "");
+}
+
+// OpenEXR would go on within the list, where 2 GB are claimed (found by the fuzz target exr)
+TEST_F(ExrClaims, ListOfChannelsLongerThanItsChannels) {
+    write(4, 4, Imf::NO_COMPRESSION);
+    std::string text = test::readAll(file());
+    const std::string attribute("channels\0chlist\0", 16), claim("x\0y\0\x10\0\0\x76", 8);
+    const std::size_t length = text.find(attribute) + attribute.size();
+    constexpr std::size_t whole = 19;  // one channel and the empty name
+    ASSERT_EQ(text[length], static_cast<char>(whole));
+    text[length] = static_cast<char>(whole + claim.size());
+    text.insert(length + 4 + whole, claim);
+    test::writeAll(file(), text);
+    EXPECT_THAT(refusal(), HasSubstr("list of channels"));
+}
+
+// The same behind a value of fixed size that is said to be shorter
+TEST_F(ExrClaims, ValuesOfOtherSizesThanTheirTypes) {
+    const std::vector<std::string> attributes{
+        {"screenWindowCenter\0v2f\0", 23}, {"dataWindow\0box2i\0", 17}, {"compression\0compression\0", 24}};
+    for (const std::string& attribute : attributes)
+        for (const int more : {-1, 1}) {
+            write(4, 4, Imf::NO_COMPRESSION);
+            std::string text = test::readAll(file());
+            const std::size_t length = text.find(attribute) + attribute.size();
+            text[length] = static_cast<char>(text[length] + more);
+            if (more > 0) text.insert(length + 4, "x");
+            if (more < 0) text.erase(length + 4, 1);
+            test::writeAll(file(), text);
+            EXPECT_NE(refusal(), "") << attribute << more;
+        }
+    write(4, 4, Imf::NO_COMPRESSION);
+    std::string text = test::readAll(file());
+    const std::string attribute("screenWindowCenter\0v2f\0", 23);
+    text[text.find(attribute) + attribute.size()] = 2;
+    test::writeAll(file(), text);
+    EXPECT_THAT(refusal(), HasSubstr("of the type v2f claims 2 bytes"));
+}
+
+// OpenEXR names an attribute as the file does (found by the fuzz target exr)
+TEST_F(ExrClaims, NamesOfSeveralLines) {
+    write(4, 4, Imf::NO_COMPRESSION);
+    std::string text = test::readAll(file());
+    text.insert(8, std::string("a\nb\0int\0\4\0\0\0none", 16) + std::string("a\nb\0string\0\4\0\0\0none", 19));
+    test::writeAll(file(), text);
+    EXPECT_NE(refusal(), "");
+    EXPECT_EQ(refusal().find('\n'), std::string::npos) << refusal();
+}
+
 TEST_F(ExrClaims, TooManyValues) {
     write(4, 4, Imf::ZIP_COMPRESSION);
     claim(windowAttribute, 8, {32767, 8192});  // 2^28 and one row more

@@ -29,6 +29,7 @@ TEST(StatisticsJson, HasEveryNumberUnderItsName) {
     s.collectors = 9;
     s.gpuBytes = 10;
     s.gpuBytesHeld = 11;
+    s.assets = {{{8, 9, 10}, 0, 7, 1, 0.5, 0.25, 0.125, 1.0, 2.0}, {{4, 5, 5}, 1, 2, 199, 0.5, 0.25, 0.125, 1.0, 2.0}};
     s.passes = {{"trace", 1.25}, {"draw", 2.0}};
     s.warnings = {"odd"};
     const std::string text = statisticsJson(s, {}, 4.5, 12.5);
@@ -44,6 +45,12 @@ TEST(StatisticsJson, HasEveryNumberUnderItsName) {
                              "collectors", "gpu_bytes", "gpu_bytes_held"}) {
         EXPECT_EQ(json[name], number++) << name;
     }
+    EXPECT_EQ(
+        json["preparation"],
+        nlohmann::json({{"upload", 1.0}, {"majorants", 0.5}, {"sampling", 0.25}, {"tree", 2.0}, {"collectors", 4.0}}));
+    EXPECT_EQ(json["assets"],
+              nlohmann::json::array({{{"voxels", {8, 9, 10}}, {"level", 0}, {"collectors", 7}, {"instances", 1}},
+                                     {{"voxels", {4, 5, 5}}, {"level", 1}, {"collectors", 2}, {"instances", 199}}}));
     EXPECT_EQ(json["passes"],
               nlohmann::json::array({{{"name", "trace"}, {"ms", 1.25}}, {{"name", "draw"}, {"ms", 2.0}}}));
     EXPECT_EQ(json["warnings"], nlohmann::json::array({"odd"}));

@@ -22,7 +22,7 @@ TEST(Droplets, TheReferenceAgrees) {
     for (double angle = 0.0; angle <= 180.0; angle += angle < 3.0 || angle > 170.0 ? 0.1 : 0.5) {
         const double x = test::oneMinusCosine(angle * test::degree);
         for (std::size_t c = 0; c < 4; ++c) {
-            const phase::TabulatedPhase& table = c < 3 ? colours->channels[c] : colours->mean.front();
+            const phase::TabulatedPhase& table = c < 3 ? colours.channels[c] : colours.mean.front();
             const double ratio = own.colours[c].evaluate(x) / table.evaluate(angle * test::degree);
             EXPECT_NEAR(ratio, 1.0, 0.12) << angle << " " << c;  // narrow resonances are noise of both
             squares += (ratio - 1.0) * (ratio - 1.0);

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
+
+#include "light/photon/entry_grid.h"
 
 namespace lumulus::photon {
 namespace {
@@ -49,6 +52,34 @@ TEST(EntryDiscs, AreaFollowsTheDirection) {
     const glm::vec4 middle(0.0F, 20.0F, 30.0F, 1.0F);
     for (const glm::vec4& row : disc.toUnit) EXPECT_NEAR(glm::dot(row, middle), 0.0F, 1e-5F);
     EXPECT_EQ(disc.fromUnit[1].w, 20.0F);
+}
+
+/// Wherever a place of an ellipsoid is, the list of its cell names the ellipsoid; and there are no more cells than a
+/// few dozen for each of them, also where two clouds lie 100 km apart.
+TEST(EntryGrid, NamesTheEllipsoidsOfEachCell) {
+    std::vector<PlacedEllipsoid> ellipsoids{
+        {glm::dmat3(dvec3(300.0, 0, 0), dvec3(0, 100.0, 0), dvec3(0, 0, 200.0)), dvec3(100'000.0, 1000.0, 0.0)}};
+    for (int i = 0; i < 30; ++i)
+        ellipsoids.push_back({glm::dmat3(dvec3(60.0 + 9.0 * i, 30.0, 0), dvec3(-20.0, 80.0, 0), dvec3(0, 0, 90.0)),
+                              5000.0 * glm::fract(dvec3(i) * dvec3(0.7548776662, 0.01, 0.4301597090))});
+    dvec3 lower(1e9), upper(-1e9);
+    for (const PlacedEllipsoid& one : ellipsoids) {
+        lower = glm::min(lower, one.middle - one.reach());
+        upper = glm::max(upper, one.middle + one.reach());
+    }
+    const EntryGrid grid = makeEntryGrid(ellipsoids, lower, upper);
+    EXPECT_LT(grid.cells.x * grid.cells.y * grid.cells.z, 2000);
+    for (std::size_t number = 0; number < ellipsoids.size(); ++number)
+        for (int k = 0; k < 200; ++k) {
+            const dvec3 ball = 2.0 * glm::fract(dvec3(k) * dvec3(0.7548776662, 0.5698402910, 0.4301597090)) - 1.0;
+            if (glm::dot(ball, ball) > 1.0) continue;
+            const dvec3 at = ellipsoids[number].middle + ellipsoids[number].axes * ball;
+            const glm::ivec3 cell(glm::floor((at - lower) / grid.edge));
+            const auto place = static_cast<std::size_t>((cell.z * grid.cells.y + cell.y) * grid.cells.x + cell.x);
+            const auto first = grid.lists.begin() + grid.lists.at(place);
+            EXPECT_NE(std::find(first, grid.lists.begin() + grid.lists.at(place + 1), number),
+                      grid.lists.begin() + grid.lists.at(place + 1));
+        }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "fog/screen/spread.h"
@@ -116,6 +117,123 @@ TEST(FogMedia, HomogeneousEndsAtTheSkyDistance) {
     EXPECT_EQ(computed({}, {}, {0, 0, 1}, 1e10, 5000.0), 5000.0);
 }
 
+scene::FogMedium layer(double bottom, double top) {
+    scene::FogMedium m;
+    m.bottom = bottom;
+    m.top = top;
+    return m;
+}
+
+/// A level layer is crossed for its thickness over the sine, from inside, from below, from above and from far away.
+TEST(FogMedia, ALayerIsItsThicknessOverTheSine) {
+    const scene::FogMedium m = layer(100.0, 130.0);
+    for (const double away : {0.0, 1e3, 1e5, 1e7}) {
+        for (const double sine : {1.0, 0.5, 1e-2, 1e-4}) {
+            const glm::dvec3 up(std::sqrt(1.0 - sine * sine), sine, 0.0), down = -up;
+            EXPECT_NEAR(computed(m, {5, 100 - away, 0}, up, 1e12) * sine / 30.0, 1.0, 2e-6) << away << ' ' << sine;
+            EXPECT_NEAR(computed(m, {5, 130 + away, 0}, down, 1e12) * sine / 30.0, 1.0, 2e-6) << away << ' ' << sine;
+            EXPECT_EQ(computed(m, {5, 100 - away, 0}, down, 1e12), 0.0);
+            EXPECT_EQ(computed(m, {5, 130 + away, 0}, up, 1e12), 0.0);
+            EXPECT_NEAR(computed(m, {5, 110, 0}, up, 1e12) * sine / 20.0, 1.0, 2e-6);
+            EXPECT_NEAR(computed(m, {5, 110, 0}, down, 1e12) * sine / 10.0, 1.0, 2e-6);
+        }
+        // a path that ends within the layer, or before it
+        EXPECT_NEAR(computed(m, {0, 100 - away, 0}, {0, 1, 0}, away + 12.0), 12.0, 1e-5 + 1e-7 * away);
+        EXPECT_EQ(computed(m, {0, 99 - away, 0}, {0, 1, 0}, away), 0.0);
+    }
+    EXPECT_EQ(computed(m, {0, 110, 0}, {1, 0, 0}, 5e6), 5e6);
+    EXPECT_EQ(computed(m, {0, 99, 0}, {1, 0, 0}, 5e6), 0.0);
+    EXPECT_EQ(computed(m, {0, 131, 0}, {0, 0, -1}, 5e6), 0.0);
+    EXPECT_EQ(computed(m, {0, 110, 0}, glm::normalize(glm::dvec3(1, 1e-9, 0)), 1e3), 1e3);
+    EXPECT_EQ(computed(layer(7.0, 7.0), {0, 0, 0}, {0, 1, 0}, 1e3), 0.0) << "nothing is left above the ground";
+}
+
+TEST(FogMedia, ALayerHasAnEndOfItsOwn) {
+    EXPECT_EQ(computed(layer(-10.0, 10.0), {}, {0, 0, 1}, 7000.0, 500.0), 7000.0);
+    scene::FogMedium half = layer(-10.0, 1.0);
+    half.top = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(computed(half, {}, {0, 1, 0}, 7000.0, 500.0), 500.0) << "endless upwards";
+    EXPECT_NEAR(computed(half, {}, {0, -1, 0}, 7000.0, 500.0), 10.0, 1e-5);
+    half.kind = MediumKind::exponential;
+    EXPECT_NEAR(computed(half, {}, {0, 1, 0}, 1e10, 1.0), 100.0, 1e-3) << "it thins out upwards";
+}
+
+TEST(FogMedia, AnExponentialLayerIsTheIntegral) {
+    for (const double falloff : {1e-9, 0.004, 0.3}) {
+        for (scene::FogMedium m : {exponential(falloff), layer(0.0, 0.0)}) {
+            m.kind = MediumKind::exponential;
+            m.falloff = falloff;
+            m.bottom = 35.0;
+            m.top = 80.0;
+            for (const glm::dvec3& eye : {glm::dvec3(10, 50, 7), glm::dvec3(10, -40, 7), glm::dvec3(10, 200, 7)}) {
+                for (const glm::dvec3& towards : {glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0), glm::dvec3(1, 0, 0),
+                                                  glm::dvec3(-2, 0.5, 1), glm::dvec3(1, -0.4, 0.3)}) {
+                    const glm::dvec3 direction = glm::normalize(towards);
+                    // within the layer, whose edges a rule of equal steps would miss by half a step
+                    double first = 0.0, last = 1e9;
+                    if (direction.y != 0.0) {
+                        const double low = (m.bottom - eye.y) / direction.y, high = (m.top - eye.y) / direction.y;
+                        first = std::max(0.0, std::min(low, high));
+                        last = std::max(first, std::max(low, high));
+                    } else if (eye.y < m.bottom || eye.y > m.top) {
+                        last = first;
+                    }
+                    for (const double distance : {60.0, 500.0}) {
+                        const double expected = integral([&](double t) { return density(m, eye + t * direction); },
+                                                         std::min(first, distance), std::min(last, distance));
+                        EXPECT_NEAR(computed(m, eye, direction, distance), expected, 3e-5 * expected + 1e-9)
+                            << falloff << ' ' << eye.y << ' ' << direction.y << ' ' << distance;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Seen from 10 km above, a ground layer that is e times thinner every 10 m.
+TEST(FogMedia, AGroundLayerFromFarAbove) {
+    scene::FogMedium m = layer(-300.0, 0.0);
+    m.kind = MediumKind::exponential;
+    m.falloff = 0.1;
+    m.offset.y = -300.0;
+    m.top = std::numeric_limits<double>::infinity();
+    for (const double sine : {1.0, 0.1, 1e-3}) {
+        const glm::dvec3 down(std::sqrt(1.0 - sine * sine), -sine, 0.0);
+        EXPECT_NEAR(computed(m, {0, 1e4, 0}, down, 1e10) * sine, 10.0, 5e-3) << sine;
+        EXPECT_NEAR(computed(m, {0, -300, 0}, {down.x, sine, 0.0}, 1e10) * sine, 10.0, 1e-4) << sine;
+    }
+}
+
+TEST(FogMedia, EllipsoidAndBoxAreTheirChords) {
+    scene::FogMedium m;
+    m.kind = MediumKind::ellipsoid;
+    m.center = {5.0, 1.0, -3.0};
+    m.halfSize = {40.0, 10.0, 20.0};
+    const auto inside = [&](const glm::dvec3& x) {
+        const glm::dvec3 unit = (x - m.center) / m.halfSize;
+        return m.kind == MediumKind::box ? std::max({std::abs(unit.x), std::abs(unit.y), std::abs(unit.z)}) <= 1.0
+                                         : glm::length(unit) <= 1.0;
+    };
+    for (const MediumKind kind : {MediumKind::ellipsoid, MediumKind::box}) {
+        m.kind = kind;
+        for (const glm::dvec3& eye : {glm::dvec3(5, 1, -3), glm::dvec3(30, 5, 0), glm::dvec3(100, 20, 7)}) {
+            for (const glm::dvec3& target : {glm::dvec3(6, 1, -3), glm::dvec3(5, 8, -3), glm::dvec3(5, 1, 30)}) {
+                const glm::dvec3 direction = glm::normalize(target - eye);
+                for (const double distance : {1.0, 40.0, 400.0}) {
+                    const double expected =
+                        integral([&](double t) { return inside(eye + t * direction) ? 1.0 : 0.0; }, 0.0, distance);
+                    EXPECT_NEAR(computed(m, eye, direction, distance), expected, 0.05);
+                }
+            }
+        }
+        // from a thousand kilometres, and along an axis
+        EXPECT_NEAR(computed(m, {5.0 + 1e6, 1.0, -3.0}, {-1, 0, 0}, 1e10), 80.0, 0.1);
+        EXPECT_NEAR(computed(m, {5.0, 1.0, 40.0}, {0, 0, -1}, 1e10), 40.0, 1e-4);
+        EXPECT_EQ(computed(m, {5.0, 12.0, 40.0}, {0, 0, -1}, 1e10), 0.0);
+        EXPECT_EQ(computed(m, {5.0, 1.0, 40.0}, {0, 0, 1}, 1e10), 0.0);
+    }
+}
+
 shared::FogPath pathOf(float scattering, float absorption, float g, float distance) {
     shared::FogMedium medium{};
     medium.scattering = glm::vec3(scattering);
@@ -181,26 +299,45 @@ TEST(FogMedia, TheSunIsDimmedThroughTheLayerAbove) {
     EXPECT_EQ(share.z, 1.0);
 }
 
-TEST(FogMedia, LargestSpreadIsABound) {
+void expectSpreadBounded(const scene::Fog& fog, const glm::dvec3& eye) {
     Camera camera;
     camera.width = 64;
     camera.height = 48;
     camera.tanHalfFov = 0.5;
-    scene::Fog fog;
-    fog.media.resize(2);
-    fog.media[0].scattering = glm::dvec3(0.01);
-    fog.media[1] = exponential(0.05);
-    fog.media[1].scattering = glm::dvec3(0.02);
+    camera.position = eye;
     const double bound = largestSpread(fog, camera, 300.0);
     const std::vector<shared::FogMedium> media = mediaAround(fog, camera.position);
-    for (const auto& [x, y] : {std::pair{0.5, 0.5}, {32.0, 24.0}, {32.0, 47.5}, {63.5, 47.5}}) {
+    for (const auto& [x, y] : {std::pair{0.5, 0.5}, {32.0, 24.0}, {32.0, 47.5}, {63.5, 47.5}, {32.0, 20.0}}) {
         const glm::dvec3 direction = camera.ray(x, y).direction;
         shared::FogPath path = shared::clearPath();
         for (const shared::FogMedium& m : media)
             shared::addMedium(path, m, shared::densityIntegral(m, glm::vec3(0.0F), glm::vec3(direction), 300.0F, 1e5F));
         const double spread = std::sqrt(static_cast<double>(shared::spreadVariance(path))) * pixelsPerRadian(camera);
-        EXPECT_LE(spread, bound * 1.0001);
+        EXPECT_LE(spread, bound * 1.0001) << eye.y << ' ' << x << ' ' << y;
     }
+}
+
+TEST(FogMedia, LargestSpreadIsABound) {
+    scene::Fog fog;
+    fog.media.resize(2);
+    fog.media[0].scattering = glm::dvec3(0.01);
+    fog.media[1] = exponential(0.05);
+    fog.media[1].scattering = glm::dvec3(0.02);
+    expectSpreadBounded(fog, glm::dvec3(0.0));
+    // layers, from within, above and below
+    for (scene::FogMedium& m : fog.media) {
+        m.bottom = -10.0;
+        m.top = 20.0;
+        m.direction = {0.0, 1.0, 0.0};
+    }
+    for (const double eye : {0.0, 60.0, -40.0, 200.0}) {
+        expectSpreadBounded(fog, {0.0, eye, 0.0});
+        fog.media[1].direction.y *= -1.0;
+        expectSpreadBounded(fog, {0.0, eye, 0.0});
+    }
+    fog.media[0].top = std::numeric_limits<double>::infinity();
+    fog.media[1].kind = MediumKind::box;
+    expectSpreadBounded(fog, {0.0, -12.0, 0.0});
 }
 
 }  // namespace

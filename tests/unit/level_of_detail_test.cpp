@@ -20,6 +20,14 @@ TEST(LevelOfDetail, VoxelsAreNoLargerThanAPixel) {
     EXPECT_EQ(levelOfDetail(7, 1e-9), 0);
 }
 
+TEST(LevelOfDetail, LightCrossesAVoxel) {
+    EXPECT_EQ(levelOfThickness(2.5), 0);
+    EXPECT_EQ(levelOfThickness(1.1), 0);
+    EXPECT_EQ(levelOfThickness(0.9), 1);
+    EXPECT_EQ(levelOfThickness(0.24), 3);
+    EXPECT_EQ(levelOfThickness(0.0), coarsestLevel);
+}
+
 TEST(LevelOfDetail, CollectorsFollowTheSizeInThePicture) {
     EXPECT_EQ(collectorsFor(0.0), 30);
     EXPECT_EQ(collectorsFor(48.0), 951);

@@ -123,7 +123,7 @@ TEST(Mie, CloudDropletsLookLikeCloudDroplets) {
 }
 
 TEST(Mie, ColoursHaveTheOrderOfRainbows) {
-    const std::vector<PhaseFunction> channels = colourChannels(droplets(10.0));
+    const std::vector<PhaseFunction> channels = phaseColours(droplets(10.0)).channels;
     ASSERT_EQ(channels.size(), 3U);
     // the outer rim of the bow is red, its inner one blue; a ring of the glory is red outside
     const auto ratio = [&](double angle) {
@@ -138,7 +138,7 @@ TEST(Mie, ColoursHaveTheOrderOfRainbows) {
         EXPECT_NEAR(channel.moments(1)[0], 1.0, 1e-9);
         EXPECT_NEAR(channel.moments(2)[1], mean.moments(2)[1], 0.006);
     }
-    EXPECT_TRUE(colourChannels(scene::Phase{}).empty());
+    EXPECT_TRUE(phaseColours(scene::Phase{}).channels.empty());
 }
 
 TEST(Mie, SizesAtTheEndsOfTheRange) {
@@ -185,7 +185,7 @@ TEST(Mie, TablesOfTheGpuHoldThreeColours) {
         makeScatteringTables(droplets(10.0), 15.0 * degree, glm::dvec3(1.0), 4, 0.53 * degree);
     EXPECT_TRUE(tables.coloured);
     ASSERT_EQ(tables.phaseTable.size(), std::size_t{3} * shared::phaseTableSize);
-    const std::vector<PhaseFunction> channels = colourChannels(droplets(10.0));
+    const std::vector<PhaseFunction> channels = phaseColours(droplets(10.0)).channels;
     for (const double angle : {60.0, 141.0, 150.0}) {
         const shared::ScatterAngle at =
             shared::angleFromOneMinusCos(static_cast<float>(test::oneMinusCosine(angle * degree)));

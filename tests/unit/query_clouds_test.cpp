@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
+#include "base/interrupt.h"
 #include "query/clouds.h"
 #include "reference/medium.h"
 #include "support/test_volumes.h"
@@ -54,6 +56,60 @@ TEST(QueryClouds, AgreesWithTheReference) {
                 wanted += piece.depth;
             EXPECT_NEAR(clouds.opticalDepth(way), wanted, 1e-4 * wanted + 2e-4) << i;
         }
+    }
+}
+
+vdb::SparseVolume sparseOf(const vdb::Volume& dense, const vdb::LevelRule& rule = {}) {
+    vdb::SparseVolume sparse;
+    sparse.size = dense.size;
+    sparse.maximum = dense.maximum;
+    sparse.format = vdb::DensityFormat::r16f;
+    sparse.leaves = vdb::leavesOf(dense);
+    vdb::layOut(sparse, rule, stopIfInterrupted);
+    return sparse;
+}
+
+TEST(QueryClouds, BricksHaveTheDepthsOfTheDenseField) {
+    for (const glm::ivec3 size : {glm::ivec3(37, 50, 29), glm::ivec3(8, 130, 71)}) {
+        vdb::Volume volume = test::lumpyVolume(size, glm::dmat3(1.0), 5);
+        vdb::SparseVolume sparse = sparseOf(volume);
+        const vdb::Affine place = somePlace({1e5, 0.0, 3.0});
+        const Clouds dense({{fieldOf(volume), place.linear, place.translation, 0.05}});
+        const double extinction = 0.05 * static_cast<double>(volume.maximum);
+        const Clouds bricks(
+            {{std::make_shared<const BrickField>(sparse), place.linear, place.translation, extinction}});
+        std::mt19937 random(8);
+        for (int i = 0; i < 300; ++i) {
+            const Way way = Way::between(place.point(pointIn(random, glm::dvec3(-10.0), glm::dvec3(140.0))),
+                                         place.point(pointIn(random, glm::dvec3(-10.0), glm::dvec3(60.0))));
+            const double wanted = dense.opticalDepth(way);
+            EXPECT_NEAR(bricks.opticalDepth(way), wanted, 6e-4 * wanted + 2e-4) << i;  // of half floats
+        }
+    }
+}
+
+/// Bricks of a level that is not the finest, and bricks of one value, against sums of the interpolated density.
+TEST(QueryClouds, CoarseAndConstantBricksAreAsShadersSeeThem) {
+    vdb::Volume volume = test::emptyVolume(glm::ivec3(70, 66, 90));
+    test::fillVolume(volume, [](const glm::ivec3& at) { return at.z > 40 ? 0.75 : 0.5 + 0.4 * std::sin(0.2 * at.x); });
+    const auto rule = [](const glm::ivec3& minimum, int) { return minimum.x < 32 ? 1 : 0; };
+    vdb::SparseVolume sparse = sparseOf(volume, rule);
+    const BrickField field(sparse);
+    ASSERT_GT(sparse.counts.constant, 0U);
+    ASSERT_GT(sparse.counts.slots[1], 0U);
+    const std::vector<std::byte> texels = vdb::allTexels(sparse);
+    std::mt19937 random(9);
+    for (int i = 0; i < 50; ++i) {
+        const glm::dvec3 from = pointIn(random, glm::dvec3(1.0), glm::dvec3(65.0, 61.0, 85.0));
+        const glm::dvec3 to = pointIn(random, glm::dvec3(1.0), glm::dvec3(65.0, 61.0, 85.0));
+        constexpr int steps = 4000;
+        double sum = 0.0;
+        for (int step = 0; step < steps; ++step)
+            sum += static_cast<double>(
+                vdb::densityAt(sparse, texels, glm::vec3(from + (step + 0.5) / steps * (to - from))));
+        const double length = glm::length(to - from);
+        const double wanted = sum / steps * length;
+        EXPECT_NEAR(field.integral({from, (to - from) / length}, 0.0, length), wanted, 1e-3 * wanted + 1e-3) << i;
     }
 }
 

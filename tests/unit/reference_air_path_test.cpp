@@ -145,6 +145,7 @@ TEST(ReferenceAirMedium, HasThePublishedCoefficients) {
         const dvec3 back = medium.toRgb * medium.lightOf({0.3, 2.0, 5.0});
         EXPECT_NEAR(glm::distance(back, {0.3, 2.0, 5.0}), 0.0, 1e-12);
         EXPECT_EQ(medium.spread({0.1, 0.2, 0.3}).x, 0.3) << "blue counts at 440 nm";
+        EXPECT_NEAR(medium.spread({0.1, 0.2, 0.3}).z, medium.fromRgb[0].z == 1.0 ? 0.1 : 0.175, 1e-15);
         EXPECT_EQ(medium.spread({0.1, 0.2, 0.3}).w, 0.1) << "red counts at the longest";
     }
 }

@@ -32,7 +32,7 @@ TEST(SceneAtmosphere, TheSunIsThatAboveTheAirUnlessGiven) {
     EXPECT_EQ(parsed("[sky]\nmodel = \"atmosphere\"").sun.irradiance, sunAboveAir);
     EXPECT_TRUE(parsed("[sky]\nmodel = \"atmosphere\"").sun.limbDarkening);
     EXPECT_EQ(parsed("[sky]\nmodel = \"atmosphere\"\n[sun]\nirradiance = 3").sun.irradiance, glm::dvec3(3.0));
-    EXPECT_EQ(parsed("").sun, Sun{});
+    EXPECT_EQ(parsed("[sky]\nmodel = \"constant\"").sun, Sun{});
 }
 
 TEST(SceneAtmosphere, RefusesWhatItDoesNotRead) {
@@ -40,7 +40,7 @@ TEST(SceneAtmosphere, RefusesWhatItDoesNotRead) {
         EXPECT_THAT([&] { parsed(toml); }, ThrowsMessage<InputError>(HasSubstr(what))) << toml;
     };
     refuses("[sky]\nmodel = \"atmosphere\"\nradiance = 1", "sky.radiance has no effect (test.toml:3");
-    refuses("[sky]\naerosol_depth = 0.1", "sky.aerosol_depth has no effect (test.toml:2");
+    refuses("[sky]\nmodel = \"constant\"\naerosol_depth = 0.1", "sky.aerosol_depth has no effect (test.toml:3");
     refuses("[sky]\nmodel = \"atmosphere\"\npreset = \"hillaire\"\nozone = 3", "sky.ozone has no effect");
     refuses("[sky]\nmodel = \"atmosphere\"\naerosol_depth = -0.1", "test.toml:3, sky.aerosol_depth");
     refuses("[sky]\nmodel = \"atmosphere\"\nground_albedo = 1.1", "test.toml:3, sky.ground_albedo");
@@ -55,7 +55,8 @@ TEST(SceneAtmosphere, RefusesWhatItDoesNotRead) {
 }  // namespace
 TEST(SceneAtmosphere, IsExposedByItsPictureUnlessAnExposureIsGiven) {
     const auto modeOf = [](const std::string& text) { return parseScene(text, "a.toml", {}).image.exposureMode; };
-    EXPECT_EQ(modeOf(""), ExposureMode::stops);
+    EXPECT_EQ(modeOf("[sky]\nmodel = \"constant\"\n"), ExposureMode::stops);
+    EXPECT_EQ(modeOf(""), ExposureMode::automatic);
     EXPECT_EQ(modeOf("[sky]\nmodel = \"atmosphere\"\n"), ExposureMode::automatic);
     EXPECT_EQ(modeOf("[image]\nexposure = -6.0\n[sky]\nmodel = \"atmosphere\"\n"), ExposureMode::stops);
     EXPECT_EQ(modeOf("[image]\nexposure_mode = \"ev100\"\n[sky]\nmodel = \"atmosphere\"\n"), ExposureMode::ev100);

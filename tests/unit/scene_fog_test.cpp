@@ -1,10 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "scene/fog_bounds.h"
 #include "scene/load.h"
 #include "support/scene_message.h"
 
@@ -90,6 +94,107 @@ TEST(SceneFog, WhatCannotBeFilteredIsRefused) {
     EXPECT_THAT(sceneMessage("[fog.media]\ng = 0.5"), HasSubstr("write [[fog.media]] with two brackets"));
     EXPECT_THAT(sceneMessage("[[fog.media]]\nvisibility = 0"), HasSubstr("visibility must be above 0"));
     EXPECT_THAT(sceneMessage("[[fog.media]]\ng = 1"), HasSubstr("g must be above -1, below 1"));
+}
+
+/// Hess, Koepke and Schult (1998), table 4; at 550 nm the extinction is that of the visibility.
+TEST(SceneFog, AnAerosolGivesAlbedoAndColour) {
+    const auto medium = [](const std::string& name, double visibility) {
+        return parseScene("[[fog.media]]\nvisibility = " + std::to_string(visibility) + "\naerosol = \"" + name + "\"",
+                          "x.toml")
+            .fog.media.at(0);
+    };
+    const FogMedium urban = medium("urban", 5000.0);
+    const glm::dvec3 extinction = urban.scattering + urban.absorption;
+    EXPECT_EQ(urban.g, 0.689);
+    EXPECT_NEAR(extinction.x, 3.912 / 5000.0 * std::pow(640.0 / 550.0, -1.43), 1e-12);
+    EXPECT_NEAR(extinction.y, 3.912 / 5000.0 * std::pow(540.0 / 550.0, -1.43), 1e-12);
+    EXPECT_NEAR(extinction.z, 3.912 / 5000.0 * std::pow(500.0 / 550.0, -1.43) * std::pow(0.88, -1.14), 1e-12);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(urban.scattering[c] / extinction[c], 0.817, 1e-12);
+    // from runway fog to the clearest air
+    for (const double visibility : {50.0, 550.0, 50e3}) {
+        const FogMedium fog = medium("fog", visibility);
+        EXPECT_EQ(fog.scattering, glm::dvec3(3.912 / visibility));
+        EXPECT_EQ(fog.absorption, glm::dvec3(0.0));
+        EXPECT_GT(medium("maritime", visibility).scattering.z, fog.scattering.z * 0.99);
+    }
+    EXPECT_THAT(sceneMessage("[[fog.media]]\naerosol = \"urban\""), HasSubstr("aerosol needs a visibility (x.toml:2"));
+    EXPECT_THAT(sceneMessage("[[fog.media]]\nvisibility = 50\naerosol = \"smog\""), HasSubstr("\"urban\""));
+    for (const char* key : {"scattering", "absorption", "g"}) {
+        EXPECT_THAT(sceneMessage(std::string("[[fog.media]]\naerosol = \"urban\"\n") + key + " = 0.5"),
+                    HasSubstr("exclude each other"));
+    }
+}
+
+TEST(SceneFog, TheGroundEndsALayerFromBelow) {
+    const std::string media = "[[fog.media]]\ntop = 500\n[[fog.media]]\nbottom = 200\ntop = 300\n";
+    const auto bottoms = [&](const std::string& rest) {
+        const Fog fog = parseScene(media + rest, "x.toml").fog;
+        return std::pair(fog.media.at(0).bottom, fog.media.at(1).bottom);
+    };
+    constexpr double none = -std::numeric_limits<double>::infinity();
+    EXPECT_EQ(bottoms(""), std::pair(none, 200.0));
+    EXPECT_EQ(bottoms("[ground]\nheight = -50"), std::pair(-50.0, 200.0));
+    EXPECT_EQ(bottoms("[ground]\nheight = 250"), std::pair(250.0, 250.0));
+    EXPECT_EQ(bottoms("[ground]\nheight = 400"), std::pair(400.0, 300.0)) << "nothing is left of the second";
+    EXPECT_EQ(bottoms("[sky]\nmodel = \"atmosphere\""), std::pair(0.0, 200.0)) << "the planet";
+}
+
+TEST(SceneFog, BottomAndTopAreOfLayersAndInOrder) {
+    EXPECT_THAT(sceneMessage("[[fog.media]]\nbottom = 5\ntop = 5"),
+                HasSubstr("bottom 5 is not below its top 5 (x.toml:2, fog.media.0.bottom): give a lower one"));
+    EXPECT_THAT(sceneMessage("[[fog.media]]\nkind = \"sphere\"\ntop = 5"), HasSubstr("top has no effect"));
+    EXPECT_THAT(sceneMessage("[[fog.media]]\nhalf_size = [1, 1, 1]"), HasSubstr("half_size has no effect"));
+    EXPECT_THAT(sceneMessage("[[fog.media]]\nkind = \"box\"\nhalf_size = [1, 0, 1]"),
+                HasSubstr("half_size must be above 0 (x.toml:3"));
+}
+
+/// `mend` is part of the message of the refusal, empty where the fog is fine.
+void expectBound(const std::string& text, const std::string& mend, const std::string& sky) {
+    const std::string toml = text + sky;
+    try {
+        requireBoundedFog(parseScene(toml, "x.toml"));
+        EXPECT_EQ(mend, "") << toml;
+    } catch (const InputError& e) {
+        EXPECT_NE(mend, "") << toml << ": " << e.what();
+        EXPECT_THAT(e.what(), HasSubstr(mend)) << toml;
+    }
+}
+
+/// Under a constant sky, unless the scene has one.
+void expectBound(const std::string& toml, const std::string& mend) {
+    expectBound(toml, mend, toml.find("[sky]") == std::string::npos ? "\n[sky]\nmodel = \"constant\"\n" : "");
+}
+
+TEST(SceneFog, ThePlanetOfTheDefaultSkyEndsFog) {
+    const std::string homogeneous = "[[fog.media]]\nvisibility = 100\n",
+                      exponential = homogeneous + "kind = \"exponential\"\n";
+    expectBound(homogeneous, "fog.media.0.top): give a height", "");
+    expectBound(homogeneous + "top = 0", "", "");
+    expectBound(exponential, "", "");
+    expectBound(exponential + "direction = [0, -1, 0]", "fog.media.0.top", "");
+}
+
+TEST(SceneFog, EndlessFogInTheLightOfSunAndSkyIsRefused) {
+    const std::string homogeneous = "[[fog.media]]\nvisibility = 100\n",
+                      exponential = homogeneous + "kind = \"exponential\"\n", box = homogeneous + "kind = \"box\"\n";
+    expectBound(homogeneous, "fog.media.0.top): give top and bottom");
+    expectBound(homogeneous + "bottom = 0", "fog.media.0.top): give a height");
+    expectBound(homogeneous + "top = 0", "fog.media.0.bottom): give a height in metres, or [ground] height");
+    expectBound(homogeneous + "top = 50\n[ground]\nheight = 0", "");
+    expectBound(homogeneous + "bottom = 0\ntop = 50", "");
+    expectBound(exponential, "fog.media.0.bottom");
+    expectBound(exponential + "bottom = 0", "");
+    expectBound(exponential + "bottom = 0\nfalloff = 0", "fog.media.0.top");
+    expectBound(exponential + "direction = [0, -1, 0]", "fog.media.0.top");
+    expectBound(exponential + "direction = [0, -1, 0]\ntop = 0", "");
+    expectBound(exponential + "direction = [0.1, 1, 0]\nbottom = 0", "fog.media.0.top");
+    expectBound(exponential + "direction = [0.1, 1, 0]\nbottom = 0\ntop = 9", "");
+    expectBound(box + homogeneous, "fog.media.1.top");
+    expectBound(box, "");
+    expectBound("[[fog.media]]\n", "");
+    const std::string night = "[sun]\nirradiance = 0\n[sky]\nradiance = 0\n";
+    expectBound(homogeneous + night, "");
+    expectBound("[[fog.media]]\nemission = 1\n" + night, "fog.media.0.top");
 }
 
 }  // namespace

@@ -59,6 +59,32 @@ TEST(SceneFile, EmptyIsTheProceduralCumulus) {
     EXPECT_EQ(scene.source, "x.toml");
 }
 
+TEST(SceneFile, ASceneThatNamesNoSkyHasAnAtmosphere) {
+    for (const char* toml : {"", "[sun]\nelevation = 10\n", "[[cloud]]\nprocedural = \"stratus\"\n"}) {
+        const Scene scene = parse(toml);
+        EXPECT_EQ(scene.sky.model, SkyModel::atmosphere) << toml;
+        EXPECT_TRUE(scene.sky.groundBelowClouds) << toml;
+        EXPECT_EQ(scene.sun.irradiance, glm::dvec3(210.45, 189.23, 185.23)) << toml;
+        EXPECT_EQ(scene.image.exposureMode, ExposureMode::automatic) << toml;
+    }
+    EXPECT_FALSE(parse("[ground]\nheight = -20\n").sky.groundBelowClouds);
+    EXPECT_FALSE(parse("[sky]\nmodel = \"atmosphere\"\n").sky.groundBelowClouds);
+}
+
+TEST(SceneFile, ASceneThatGivesARadianceHasAConstantSky) {
+    for (const Scene& scene : {parse("[sky]\nradiance = 0.5\n"), parse("", {"sky.radiance=0.5"}),
+                               parse("cloud = []\n[[fog.media]]\nscattering = 0.001\nbottom = 0\ntop = 100\n")}) {
+        EXPECT_EQ(scene.sky.model, SkyModel::constant);
+        EXPECT_EQ(scene.sun.irradiance, glm::dvec3(5.0, 4.8, 4.4));
+        EXPECT_EQ(scene.image.exposureMode, ExposureMode::stops);
+    }
+    const Scene hazy = parse("[[fog.media]]\nscattering = 0.001\ntop = 100\n");
+    EXPECT_EQ(hazy.sky.model, SkyModel::atmosphere);
+    EXPECT_TRUE(hazy.sky.groundBelowClouds);
+    const Scene blue = parse("[sky]\nmodel = \"constant\"\n");
+    EXPECT_EQ(blue.sky.radiance, glm::dvec3(0.12, 0.22, 0.42));
+}
+
 constexpr const char* everyKey = R"(
         image = { width = 640, height = 480, exposure = -1.5 }
         [camera]
@@ -124,7 +150,7 @@ TEST(SceneFile, EveryKeyArrives) {
     cloud.phase.dropletDiameter = 12.0;
     expected.clouds = {cloud};
     expected.preparation = {1000, 0.2, 5.0, 64, 100.0};
-    expected.photonMap = {12, 3, 4, 2, 12.0, Majorant::local, 50.5, 9007199254740991ULL};
+    expected.photonMap = {12, 3, 4, 2, 12.0, Majorant::local, 50.5, 9007199254740991ULL, false, false, 0, true, true};
     expected.draw = {DrawMode::march};
     expected.source = "x.toml";
     EXPECT_EQ(parse(everyKey), expected);

@@ -39,11 +39,14 @@ std::string companionOf(const Key& key) {
     if (key.name == "ground.albedo") return "height = 0.0\n";
     if (key.name == "ground.height") return "albedo = 0.2\n";
     if (name == "droplet_diameter") return "phase.model = \"droplet\"\n";
+    if (key.name == "cloud.offset") return "";
     if (name == "falloff" || name == "direction" || name == "offset") return "kind = \"exponential\"\n";
     if (key.name == "field.smallest") return "largest = 1e6\n";
     if (key.name == "field.largest") return "smallest = 1.0\n";
     if (key.name.starts_with("field.")) return "";
     if (name == "center" || name == "radius") return "kind = \"sphere\"\n";
+    if (name == "aerosol") return "visibility = 1000\n";
+    if (name == "half_size") return "kind = \"box\"\n";
     return "";
 }
 
@@ -171,11 +174,11 @@ TEST(Schema, NamesAreUniqueAndSectionsAreTogether) {
     }
 }
 
-TEST(Schema, DefaultsOfTheStructsAreThoseOfTheFile) {
+TEST(Schema, DefaultsOfTheStructsAreThoseOfAFileWithAConstantSky) {
     Scene scene;
     scene.clouds.resize(1);
     scene.source = "x.toml";
-    EXPECT_EQ(parseScene("", "x.toml"), scene);
+    EXPECT_EQ(parseScene("[sky]\nmodel = \"constant\"\n", "x.toml"), scene);
 }
 
 TEST(Schema, DocumentationIsUpToDate) {

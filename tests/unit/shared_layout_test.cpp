@@ -13,6 +13,7 @@
 #include "shared/fog_layers.h"
 #include "shared/frame.h"
 #include "shared/ground.h"
+#include "shared/lit_fog.h"
 #include "shared/photon.h"
 #include "shared/sky_view.h"
 #include "shared/world.h"
@@ -37,6 +38,9 @@ namespace spirv {
 #include "spirv/fog/chain_fetch.comp.h"
 #include "spirv/fog/exact.comp.h"
 #include "spirv/fog/join.comp.h"
+#include "spirv/fog/lit.comp.h"
+#include "spirv/fog/lit_join.comp.h"
+#include "spirv/fog/margin.comp.h"
 #include "spirv/fog/masked_prepare.comp.h"
 #include "spirv/fog/scatter_down.comp.h"
 #include "spirv/fog/scatter_prepare.comp.h"
@@ -44,10 +48,13 @@ namespace spirv {
 #include "spirv/frame/background.comp.h"
 #include "spirv/frame/read_band.comp.h"
 #include "spirv/frame/sky.comp.h"
+#include "spirv/frame/sky_fog.comp.h"
+#include "spirv/frame/sky_map.comp.h"
 #include "spirv/frame/sun_pixels.comp.h"
 #include "spirv/gpu/shaders/layout.comp.h"
 #include "spirv/light/light_cells.comp.h"
 #include "spirv/light/light_counts.comp.h"
+#include "spirv/light/light_mass.comp.h"
 #include "spirv/light/shadow_volume.comp.h"
 #include "spirv/light/shared_shadow.comp.h"
 #include "spirv/photon/accumulate.comp.h"
@@ -146,10 +153,12 @@ TEST(SharedLayout, Draw) {
     EXPECT_PUSH(billboards_comp, DrawPush, what, first, count);
     EXPECT_PUSH(interpolate_comp, InterpolatePush, first, count, firstBlock, blocks);
     EXPECT_LAYOUT(billboards_comp, Pixel, cloud, transmittance, alpha, depth, front, radiance, unused);
-    EXPECT_LAYOUT(trace_world_comp, MergedGridParams, bricks, instances, edge, largestWeight);
-    EXPECT_LAYOUT(shared_shadow_comp, Occluder, texelToTexel, offset, origin, size);
+    EXPECT_LAYOUT(trace_world_comp, MergedGridParams, bricks, instances, edge, largestWeight, entryCells, entryEdge,
+                  starts);
+
     EXPECT_PUSH(shared_shadow_comp, SharedShadowPush, size, origin, first, occluders);
     EXPECT_PUSH(shadow_volume_comp, ShadowVolumePush, gridToVoxel, originVoxel, inverseSize, grid, step, firstRow);
+    EXPECT_PUSH(light_mass_comp, LightMassPush, size, grid, edge, perMajorant, majorantCells);
     EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, eye, voxelToWorld, occupied, lit, firstCollector);
     EXPECT_PUSH(light_counts_comp, LightCountsPush, size, grid, estimatorCells, estimatorAcross, estimatorBase,
                 estimatorScale, massScale, photon, moment, occupied, firstCollector);
@@ -158,7 +167,7 @@ TEST(SharedLayout, Draw) {
 
 TEST(SharedLayout, Fog) {
     EXPECT_LAYOUT(scatter_prepare_comp, FogMedium, kind, scattering, absorption, emission, g, axis, falloff, eyeHeight,
-                  center, radius);
+                  center, radius, halfSize, aboveBottom, belowTop, thickness, bounded);
     EXPECT_PUSH(scatter_prepare_comp, FogPush, view, pixelsPerRadian, skyDistance, media, last);
     EXPECT_PUSH(scatter_down_comp, LevelPush, finerOffset, finerSize, coarserOffset, coarserSize, finerExtent,
                 inverseImage, level, last, levelScale);
@@ -168,6 +177,12 @@ TEST(SharedLayout, Fog) {
     EXPECT_LAYOUT(split_comp, LayerSummary, clouded, lit, farthest);
     EXPECT_PUSH(split_comp, FogSplitPush, size, sky);
     EXPECT_PUSH(join_comp, FogJoinPush, first, size, clouded, lit);
+    EXPECT_LAYOUT(lit_comp, LitFogParams, view, first, toSun, sunIrradiance, sunAcross, eyeHeight, height, levels,
+                  media, aboveGround, casters, inverseShadows, sky, airMedia, aboveTop, planetHeight, up, besideMedian,
+                  besidePower);
+    EXPECT_LAYOUT(lit_comp, LitFogSummary, more, less, farthest);
+    EXPECT_PUSH(lit_join_comp, FogSpreadPush, view, skyDistance, media, sign_, margin);
+    EXPECT_PUSH(margin_comp, FogMarginPush, margin);
 }
 
 TEST(SharedLayout, Frame) {
@@ -176,7 +191,9 @@ TEST(SharedLayout, Frame) {
     EXPECT_PUSH(background_comp, BackgroundPush, size, withoutFirst, withoutSize, radiance);
     EXPECT_LAYOUT(sky_comp, SkyViewParams, up, sunAcross, toSun, height, planetHeight, horizon, highest,
                   horizonDistance, asymmetry);
-    EXPECT_LAYOUT(sky_comp, SkyPassParams, view, sky, first, pixelAngle, nearest, farthest);
+    EXPECT_LAYOUT(sky_comp, SkyPassParams, view, sky, first, pixelAngle, nearest, farthest, moon);
+    EXPECT_LAYOUT(sky_fog_comp, SkyFogParams, sky, aboveFog);
+    EXPECT_LAYOUT(sky_map_comp, SkyMapParams, view, toMap, size, first, samples);
     EXPECT_PUSH(read_band_comp, BandPush, first, size);
 }
 

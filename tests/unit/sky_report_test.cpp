@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sky/atmosphere.h"
+
 namespace lumulus::sky {
 namespace {
 

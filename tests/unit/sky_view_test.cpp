@@ -111,8 +111,8 @@ TEST(SkyView, AirBetweenIsThatOfThePath) {
     const Camera camera = makeCamera(from, image, Bounds{});
     const scene::Sun sun = sunAt(20.0);
     const AirBetween between = makeAirBetween(atmosphere(), camera, sun, 3000.0, 30000.0);
-    const int row = 20, column = 11, slice = 18;
-    const Ray ray = camera.ray((column + 0.5) * 2.0, (row + 0.5) * 2.0);
+    const int row = 20, column = between.size.x / 3, slice = 18;
+    const Ray ray = camera.ray((column + 0.5) * 64.0 / between.size.x, (row + 0.5) * 2.0);
     const double share = std::pow(slice / (shared::AIR_SLICES - 1.0), 2), away = 3000.0 + 27000.0 * share;
     const AirPoint start = atmosphere().at(ray.origin, ray.direction, sun.directionTo);
     const AirLight exact = atmosphere().along(start, away, 400);
@@ -132,15 +132,13 @@ TEST(SkyMaps, HoldTheIrradiance) {
     dvec3 sum(0.0);
     double sphere = 0.0;
     for (int cell = 0; cell < SkyMaps::cells; ++cell) {
-        const double up = maps.direction(cell, {0.5, 0.5}).y;
-        sphere += SkyMaps::solidAngle(cell);
-        sum += maps.radiance(cell, 0.0) * (std::max(0.0, up) * SkyMaps::solidAngle(cell));
+        const double up = maps.frame().direction(cell, {0.5, 0.5}).y;
+        sphere += maps.frame().solidAngle(cell);
+        sum += maps.radiance(cell, 0.0) * (std::max(0.0, up) * maps.frame().solidAngle(cell));
     }
     const dvec3 exact = atmosphere().skyIrradiance(dvec3(0.0), sun.directionTo);
     EXPECT_NEAR(sphere, 4.0 * pi, 1e-9);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], exact[c], 0.01 * exact[c]);
-    EXPECT_TRUE(maps.isOf(dvec3(0.0), sun));
-    EXPECT_FALSE(maps.isOf(dvec3(0.0), sunAt(31.0)));
 }
 
 photon::Box cube(double bottom) {
@@ -164,14 +162,14 @@ TEST(AirLight, WeightsOfPhotonsAreTheFlux) {
     double total = 0.0, peak = 0.0;
     for (int cell = 0; cell < SkyMaps::cells; ++cell) {
         const auto at = static_cast<std::size_t>(cell);
-        const dvec3 towards = maps.direction(cell, {0.5, 0.5});
+        const dvec3 towards = maps.frame().direction(cell, {0.5, 0.5});
         double area = 0.0;
         for (int axis = 0; axis < 3; ++axis) area += std::abs(glm::dot(faces[axis], towards));
         const dvec3 mean = 0.5 * dvec3(light.cells[at].low + light.cells[at].high) * area;
         weight += probability[at] * mean;
         total += probability[at];
         for (int c = 0; c < 3; ++c) peak = std::max(peak, static_cast<double>(light.cells[at].high[c]) * area);
-        flux += 0.5 * (maps.radiance(cell, 800.0) + maps.radiance(cell, 2300.0)) * area * SkyMaps::solidAngle(cell);
+        flux += 0.5 * (maps.radiance(cell, 800.0) + maps.radiance(cell, 2300.0)) * area * maps.frame().solidAngle(cell);
     }
     EXPECT_NEAR(total, 1.0, 1e-9);
     EXPECT_LE(peak, 1.0001 * light.skyPeak);

@@ -13,6 +13,7 @@ lumulus_test(vdb_nano_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_nano_test.cpp L
 lumulus_test(vdb_refusal_test
              SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_refusal_test.cpp ${CMAKE_CURRENT_LIST_DIR}/vdb_throwing_new.cpp
              LINK lumulus_vdb OpenVDB::openvdb)
+lumulus_test(vdb_array_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_array_test.cpp LINK lumulus_vdb)
 lumulus_test(vdb_write_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_write_test.cpp LINK lumulus_vdb)
 lumulus_test(vdb_quantise_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_quantise_test.cpp LINK lumulus_vdb)
 lumulus_test(vdb_procedural_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/vdb_procedural_test.cpp LINK lumulus_vdb TBB::tbb)

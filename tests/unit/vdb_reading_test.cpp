@@ -4,6 +4,7 @@
 #include <atomic>
 #include <stdexcept>
 
+#include "vdb/load_sparse.h"
 #include "vdb_grids.h"
 
 /// How much of a file is read, and what ends that.
@@ -103,6 +104,23 @@ TEST_F(Reading, WhatTheCheckThrowsEndsIt) {
             };
             EXPECT_THROW(vdb::load(path, options), Stop) << path << " after " << after << " of " << all;
         }
+    }
+}
+
+// Also between leaves that are read one by one: that is no fault of the file
+TEST_F(Reading, WhatTheCheckThrowsEndsStreamsOfLeaves) {
+    const auto path = saveFile({makeLeaves("density", 6000)});
+    vdb::LoadOptions options;
+    std::atomic<int> all = 0;
+    options.limits.check = [&] { ++all; };
+    vdb::loadSparse(path, options);
+    ASSERT_GT(all, 20);
+    for (int after = 0; after < all; after += std::max(1, all.load() / 400)) {
+        std::atomic<int> left = after;
+        options.limits.check = [&] {
+            if (left-- <= 0) throw Stop("enough");
+        };
+        EXPECT_THROW(vdb::loadSparse(path, options), Stop) << "after " << after << " of " << all;
     }
 }
 

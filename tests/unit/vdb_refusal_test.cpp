@@ -1,6 +1,7 @@
 // What the loader says to files that it cannot use. None of them may crash it.
 #include <gmock/gmock.h>
 
+#include <cstring>
 #include <limits>
 
 #include "unit/vdb_grids.h"
@@ -82,6 +83,52 @@ TEST_F(Refusal, DamageNeverCrashes) {
         }
     }
     EXPECT_GT(refused, 50);
+}
+
+// A bool in OpenVDB's memory (found by the fuzz target vdb)
+TEST_F(Refusal, TileNeitherActiveNorInactive) {
+    const auto grid = makeBlob({3, 3, 3}, 1);
+    const openvdb::Coord tile(4096, 0, 0);
+    constexpr float value = 0.25F;
+    grid->tree().root().addTile(tile, value, false);
+    const std::string whole = readAll(save({grid}));
+    EXPECT_EQ(refusal(file()), "");
+    const std::string coordinates(reinterpret_cast<const char*>(tile.data()), 12);
+    const std::string start = coordinates + std::string(reinterpret_cast<const char*>(&value), sizeof(value));
+    const std::size_t flag = whole.find(start) + start.size();
+    ASSERT_EQ(whole.at(flag), 0);
+    for (const char wrong : {'\x02', '\xff'}) {
+        std::string damaged = whole;
+        damaged[flag] = wrong;
+        writeAll(file(), damaged);
+        EXPECT_THAT(refusal(file()), HasSubstr("neither active nor inactive"));
+    }
+}
+
+/// With the four bytes behind the last `name` and so many others changed to a number.
+std::string withNumber(std::string bytes, const std::string& name, std::size_t behind, std::uint32_t number) {
+    const std::size_t at = bytes.rfind(name) + name.size() + behind;
+    std::memcpy(&bytes.at(at), &number, sizeof(number));
+    return bytes;
+}
+
+// OpenVDB then takes whatever follows for the length of a name, up to 4 GiB (found by the fuzz target vdb)
+TEST_F(Refusal, MetadataThatOpenVdbReadsByItsOwnSize) {
+    const auto grid = makeBlob({3, 3, 3}, 1);
+    grid->insertMeta("place", openvdb::Vec3IMetadata({1, 2, 3}));
+    const std::string whole = readAll(save({grid}));
+    EXPECT_EQ(refusal(file()), "");
+    std::string other = whole;
+    other.at(other.find("vec3i", other.find("place")) + 3) = '4';
+    writeAll(file(), other);
+    EXPECT_THAT(refusal(file()), HasSubstr("truncated or damaged"));
+
+    constexpr std::size_t leaves = 4, stored = 8;  // behind the length of the value
+    ASSERT_NE(whole.find("__delayedload"), std::string::npos);
+    for (const auto& [behind, number] : {std::pair{leaves, 0x7FFFFFFFU}, {stored, 0x7FFFFFFFU}, {stored, 17U}}) {
+        writeAll(file(), withNumber(whole, "__delayedload", behind, number));
+        EXPECT_THAT(refusal(file()), HasSubstr("truncated or damaged")) << behind << ' ' << number;
+    }
 }
 
 TEST_F(Refusal, GridNotInTheFile) {

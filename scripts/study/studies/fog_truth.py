@@ -30,7 +30,7 @@ cloud = []
 camera = { position = [0, 40, 0], target = [0, 0, -57] }
 sun = { azimuth = 120, elevation = 40, irradiance = 3 }
 sky = { radiance = [0.2, 0.3, 0.5] }
-fog = { sky_distance = 300, media = [{ g = 0.9 }] }
+fog = { media = [{ kind = "ellipsoid", center = [0, 40, 0], half_size = [300, 300, 300], g = 0.9 }] }
 """
 
 # kind, place, radius and radiance of what lies on the plain and hovers above it

@@ -47,18 +47,17 @@ def places(count):
     return found[:count]
 
 
-def cloud(number, place, resolution):
-    x, z, yaw = place
-    c, s = math.cos(math.radians(yaw)), math.sin(math.radians(yaw))
-    rows = [[c, 0.0, s, x], [0.0, 1.0, 0.0, BASE], [-s, 0.0, c, z]]
-    return (f'[[cloud]]\nprocedural = "cumulus"\nresolution = {resolution}\nseed = {number % VARIANTS + 1}\n'
-            f'extinction = 0.05\ntransform = {rows}\n')
-
-
 def scene_of(lumulus, count, resolution):
-    """The file of a scene with so many clouds."""
+    """The file of a scene with so many clouds: a table of places for each variant."""
     path = lumulus.path("clouds", count, suffix=".toml")
-    path.write_text(HEAD + "".join(cloud(i, place, resolution) for i, place in enumerate(places(count))))
+    found = places(count)
+    text = HEAD
+    for variant in range(min(VARIANTS, count)):
+        table = lumulus.path("places", count, variant, suffix=".csv")
+        table.write_text("x,y,z,yaw\n" + "".join(f"{x!r},{BASE},{z!r},{yaw!r}\n" for x, z, yaw in found[variant::VARIANTS]))
+        text += (f'[[cloud]]\nname = "variant{variant}"\nprocedural = "cumulus"\nresolution = {resolution}\n'
+                 f'seed = {variant + 1}\nextinction = 0.05\ninstances = "{table.name}"\n')
+    path.write_text(text)
     return path
 
 

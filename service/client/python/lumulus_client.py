@@ -189,7 +189,8 @@ class Client:
         return info["found"]
 
     def change(self, **fields):
-        """Changes sun, extinction or wind for all who see the scene."""
+        """Changes sun, extinction, wind or clouds of the scene; the light is the client's own from then on, unless the
+        server lets clients share it."""
         return self.ask("change", fields)[0]
 
     def composite(self, color, depth, width, height, **fields):
@@ -198,7 +199,7 @@ class Client:
         return Frame(*self.ask("composite", {"width": width, "height": height, **fields}, color + depth))
 
     def query(self, product, rows=b"", **fields):
-        """Transmittance without a picture: `product` is "segments" (rows of x0, y0, z0, x1, y1, z1), "sun" (rows of
+        """Light without a picture: `product` is "segments" (rows of x0, y0, z0, x1, y1, z1), "sun", "ambient" (rows of
         x, y, z) or "ground_shadow" (rectangle=[x0, z0, x1, z1], width, height, y). `rows` are bytes of doubles. Returns
         the answer and its floats as bytes."""
         return self.ask("query", {"products": [product], **fields}, rows)

@@ -1,6 +1,7 @@
 #include "fog/screen/fog.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -19,6 +20,11 @@
 namespace lumulus::fog {
 
 namespace {
+
+namespace spirv {
+#include "spirv/fog/lit_join.comp.h"
+#include "spirv/fog/margin.comp.h"
+}  // namespace spirv
 
 /// The filter that the scene asks for.
 struct Filter {
@@ -53,6 +59,8 @@ struct Surface {
     std::optional<Filter> filter;
     std::optional<Uploaded> uploaded;
     std::optional<FrameLayers> layers;
+    std::optional<gpu::Image> spread;
+    std::optional<Uploaded> wide;  ///< light with a margin
 };
 
 /// Where a picture is seen from, and the media around it.
@@ -60,6 +68,23 @@ struct Eye {
     const Camera& camera;
     gpu::Buffer media;
 };
+
+/// Pixels around a picture in which light is spread out of it: as wide as it spreads, up to a quarter of the picture;
+/// in steps, so that images stay while a camera moves.
+int marginOf(const scene::Fog& scene, const Camera& camera, double farthest) {
+    if (camera.projection == scene::Projection::panorama) return 0;  // it has no border but the poles
+    const double step = std::ceil(std::max(camera.width, camera.height) / 16.0);
+    return static_cast<int>(step * std::min(4.0, std::ceil(largestSpread(scene, camera, farthest) / step)));
+}
+
+Camera withMargin(Camera camera, int margin) {
+    const double scale = (camera.height + 2.0 * margin) / camera.height;
+    camera.tanHalfFov *= scale;
+    camera.orthographicHeight *= scale;
+    camera.width += 2 * margin;
+    camera.height += 2 * margin;
+    return camera;
+}
 
 }  // namespace
 
@@ -72,6 +97,8 @@ struct Fog::State {
     Check check;
     gpu::Commands commands;
     std::optional<Surface> surface;
+    std::optional<gpu::Program<shared::FogSpreadPush>> join;
+    std::optional<gpu::Program<shared::FogMarginPush>> margin;
     std::vector<gpu::PassTime> times;
 
     Surface& surfaceOf(const glm::ivec2& size) {
@@ -160,6 +187,42 @@ void Fog::apply(const frame::Frame& frame, const Camera& camera, const glm::vec3
     const OpenSky open = openSky(s.scene, camera, sky, part);
     s.commands.begin();
     layers.recordJoin(s.commands, frame, present, open, part);
+    s.submit();
+}
+
+void Fog::addSpread(const frame::Frame& frame, const Camera& camera, const gpu::Image& light, float sign,
+                    double farthest) {
+    State& s = *state_;
+    const int margin = marginOf(s.scene, camera, farthest);
+    const Camera wide = withMargin(camera, margin);
+    Surface& surface = s.surfaceOf({wide.width, wide.height});
+    if (!surface.spread) surface.spread.emplace(s.context, "fog spread", surface.size, lightFormat);
+    if (!surface.wide) surface.wide.emplace(s.context, surface.size);
+    if (!s.join) s.join.emplace(s.context, "lit_join", spirv::lit_join_comp);
+    if (!s.margin) s.margin.emplace(s.context, "margin", spirv::margin_comp);
+    s.commands.begin();
+    s.commands.pass("fog margin");
+    s.commands.dispatch(*s.margin,
+                        {{"light", light, gpu::Sampler::nearest},
+                         {"depth", frame.depth(), gpu::Sampler::nearest},
+                         {"wideLight", surface.wide->radiance},
+                         {"wideDepth", surface.wide->distances}},
+                        {glm::ivec2(margin)}, gpu::pixelGroups(surface.size));
+    s.submit();
+    const Eye eye = s.eyeOf(wide);
+    s.filter(eye, surface.wide->radiance, surface.wide->distances, farthest, *surface.spread);
+    s.commands.begin();
+    s.commands.pass("fog spread");
+    s.commands.dispatch(*s.join,
+                        {{"cloud", frame.cloud()},
+                         {"radiance", frame.radiance()},
+                         {"depth", frame.depth(), gpu::Sampler::nearest},
+                         {"before", light, gpu::Sampler::nearest},
+                         {"after", *surface.spread, gpu::Sampler::nearest},
+                         {"Media", eye.media}},
+                        {frame::viewParams(camera), static_cast<float>(s.scene.skyDistance),
+                         static_cast<int>(s.scene.media.size()), sign, glm::ivec2(margin)},
+                        gpu::pixelGroups(frame.size()));
     s.submit();
 }
 

@@ -40,6 +40,12 @@ class Fog {
     /// fog: light that the cloud takes out of the sky, and the sun's disc. Layers that are black are not filtered.
     void apply(const frame::Frame& frame, const Camera& camera, const glm::vec3& sky, const Tile& part);
 
+    /// Adds to a frame, or takes off where `sign` is below 0, what of `light` the fog scatters on its way from the
+    /// frame's depths, spread over the picture of `camera`. What comes straight is not added. `farthest`: the largest
+    /// distance at which there is light [m].
+    void addSpread(const frame::Frame& frame, const Camera& camera, const gpu::Image& light, float sign,
+                   double farthest);
+
     /// Times of the passes of all apply() since the last call, added up by name.
     std::vector<gpu::PassTime> takeTimes();
 

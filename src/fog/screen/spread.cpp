@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "medium/fog_media.h"
@@ -10,12 +11,27 @@ namespace lumulus::fog {
 
 namespace {
 
+/// The largest ϱ of an exponential layer: at its bottom, or at its top where it is denser upwards. The axis is
+/// vertical.
+double densestPlace(const shared::FogMedium& medium) {
+    const float toFace = medium.axis.y > 0.0F ? medium.aboveBottom : medium.belowTop;
+    return std::exp(std::min(
+        -static_cast<double>(medium.falloff) * (static_cast<double>(medium.eyeHeight) - static_cast<double>(toFace)),
+        80.0));
+}
+
 /// A bound of ∫ϱ over every path of that length that starts at the eye.
-double densestPath(const shared::FogMedium& medium, float distance, float skyDistance) {
-    if (medium.kind == shared::MEDIUM_SPHERE)
-        return std::min(static_cast<double>(distance), 4.0 / 3.0 * static_cast<double>(medium.radius));
-    const glm::vec3 steepest = medium.kind == shared::MEDIUM_EXPONENTIAL ? -medium.axis : glm::vec3(0, 0, 1);
-    return static_cast<double>(shared::densityIntegral(medium, glm::vec3(0.0F), steepest, distance, skyDistance));
+double densestPath(shared::FogMedium medium, float distance, float skyDistance) {
+    const auto length = static_cast<double>(medium.bounded != 0 ? distance : std::min(distance, skyDistance));
+    if (medium.kind == shared::MEDIUM_HOMOGENEOUS) return length;
+    if (medium.kind == shared::MEDIUM_SPHERE) return std::min(length, 4.0 / 3.0 * static_cast<double>(medium.radius));
+    if (medium.kind == shared::MEDIUM_ELLIPSOID || medium.kind == shared::MEDIUM_BOX)
+        return std::min(length, 2.0 * glm::length(glm::dvec3(medium.halfSize)));
+    const bool level = medium.axis.x == 0.0F && medium.axis.z == 0.0F;
+    const double most = level ? length * densestPlace(medium) : std::numeric_limits<double>::infinity();
+    medium.aboveBottom = medium.belowTop = medium.thickness = shared::ENDLESS;
+    return std::min(most, static_cast<double>(
+                              shared::densityIntegral(medium, glm::vec3(0.0F), -medium.axis, distance, skyDistance)));
 }
 
 }  // namespace

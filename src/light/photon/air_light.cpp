@@ -4,65 +4,21 @@
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
 
+#include "light/photon/air_box.h"
 #include "light/photon/emission.h"
 
 namespace lumulus::photon {
 
 namespace {
 
-constexpr int cellCount = sky::SkyMaps::cells;
-static_assert(sky::SkyMaps::columns == shared::SKY_MAP_COLUMNS && sky::SkyMaps::rows == shared::SKY_MAP_ROWS);
+/// Light of the sky by direction, at the bottom and at the top of a cloud [W/(m² sr)].
+struct SkyLight {
+    sky::SkyCells frame;
+    std::vector<glm::dvec3> low, high;
+};
 
-/// Ends of a box along a direction of the world.
-glm::dvec2 endsAlong(const Box& box, const glm::dvec3& direction) {
-    glm::dvec2 ends(glm::dot(box.origin, direction));
-    for (int axis = 0; axis < 3; ++axis) {
-        const double length = glm::dot(box.edges[axis], direction) * box.size[axis];
-        ends += glm::dvec2(std::min(0.0, length), std::max(0.0, length));
-    }
-    return ends;
-}
-
-/// A place from 0 to 1 along a direction: per voxel, and where voxel (0,0,0) lies.
-glm::dvec4 placeAlong(const Box& box, const glm::dvec3& direction, const glm::dvec2& ends) {
-    const double length = std::max(ends.y - ends.x, 1e-6);
-    return glm::dvec4(glm::transpose(box.edges) * direction / length,
-                      (glm::dot(box.origin, direction) - ends.x) / length);
-}
-
-/// Vose's alias table of weights, which need no sum: `keep` and `other` of the cells.
-void makeAlias(const std::vector<double>& weights, std::vector<shared::SkyCell>& cells) {
-    double sum = 0.0;
-    for (const double weight : weights) sum += weight;
-    std::vector<double> share;
-    std::vector<std::size_t> small, large;
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-        share.push_back(weights[i] / sum * static_cast<double>(weights.size()));
-        (share[i] < 1.0 ? small : large).push_back(i);
-    }
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        cells[i].keep = 1.0F;
-        cells[i].other = static_cast<std::uint32_t>(i);
-    }
-    while (!small.empty() && !large.empty()) {
-        const std::size_t less = small.back(), more = large.back();
-        small.pop_back();
-        cells[less].keep = static_cast<float>(share[less]);
-        cells[less].other = static_cast<std::uint32_t>(more);
-        share[more] -= 1.0 - share[less];
-        if (share[more] >= 1.0) continue;
-        large.pop_back();
-        small.push_back(more);
-    }
-}
-
-/// Across the vertical, towards the sun.
-glm::dvec3 acrossOf(const glm::dvec3& toSun, const glm::dvec3& up) {
-    const glm::dvec3 across = toSun - glm::dot(toSun, up) * up;
-    if (glm::length(across) > 1e-6) return glm::normalize(across);
-    const glm::dvec3 aside = std::abs(up.x) < 0.9 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
-    return glm::normalize(aside - glm::dot(aside, up) * up);
-}
+/// Cells across of a map at least, 0.7° wide.
+constexpr int mapColumns = 512;
 
 void addSun(AirLight& light, const sky::Atmosphere& atmosphere, const scene::Sun& sun, const Box& box,
             const glm::dvec3& across, const glm::dvec3& up) {
@@ -83,49 +39,57 @@ void addSun(AirLight& light, const sky::Atmosphere& atmosphere, const scene::Sun
         light.sunColours.emplace_back(colour / glm::max(light.mostSun, glm::dvec3(1e-30)));
 }
 
-void addSky(AirLight& light, const sky::Atmosphere& atmosphere, const sky::SkyMaps& maps, const Box& box,
-            const glm::dvec3& up) {
-    const glm::dvec3 middle = box.origin + box.edges * (0.5 * box.size);
-    const glm::dvec2 ends = endsAlong(box, up);
-    const double height = atmosphere.heightAt(middle), half = 0.5 * (ends.y - ends.x);
+void addSky(AirLight& light, const SkyLight& sky, const Box& box) {
     const glm::dmat3 faces = faceAreas(box.edges, box.size);
-    light.skyAxes = maps.axes();
+    light.skyFrame = sky.frame;
     light.meanArea = 0.5 * (glm::length(faces[0]) + glm::length(faces[1]) + glm::length(faces[2]));
-    light.cells.resize(cellCount);
+    light.cells.resize(sky.low.size());
     std::vector<double> weights;
-    for (int cell = 0; cell < cellCount; ++cell) {
-        const glm::dvec3 towards = maps.direction(cell, {0.5, 0.5});
+    for (std::size_t cell = 0; cell < sky.low.size(); ++cell) {
+        const glm::dvec3 towards = sky.frame.direction(static_cast<int>(cell), {0.5, 0.5});
         double area = 0.0;
         for (int axis = 0; axis < 3; ++axis) area += std::abs(glm::dot(faces[axis], towards));
-        const glm::dvec3 low = maps.radiance(cell, std::max(0.0, height - half));
-        const glm::dvec3 high = maps.radiance(cell, std::max(0.0, height + half));
-        const double angle = sky::SkyMaps::solidAngle(cell);
-        light.skyFlux += 0.5 * (low + high) * (angle * area);
-        weights.push_back(luminance(0.5 * (low + high)) * angle * area);
+        const glm::dvec3 both = 0.5 * (sky.low[cell] + sky.high[cell]);
+        const double angle = sky.frame.solidAngle(static_cast<int>(cell));
+        light.skyFlux += both * (angle * area);
+        weights.push_back(luminance(both) * angle * area);
     }
     double sum = 0.0;
     for (const double weight : weights) sum += weight;
     if (!(sum > 0.0)) return;
     makeAlias(weights, light.cells);
     const glm::dvec3 flux = glm::max(light.skyFlux, glm::dvec3(1e-30));
-    for (int cell = 0; cell < cellCount; ++cell) {
-        const double weight = weights[static_cast<std::size_t>(cell)], angle = sky::SkyMaps::solidAngle(cell);
+    for (std::size_t cell = 0; cell < light.cells.size(); ++cell) {
+        const double weight = weights[cell], angle = sky.frame.solidAngle(static_cast<int>(cell));
         if (!(weight > 0.0)) continue;
-        shared::SkyCell& made = light.cells[static_cast<std::size_t>(cell)];
+        shared::SkyCell& made = light.cells[cell];
         const glm::dvec3 scale = angle / (weight / sum) / flux;
-        const glm::dvec3 low = maps.radiance(cell, std::max(0.0, height - half)) * scale;
-        const glm::dvec3 high = maps.radiance(cell, std::max(0.0, height + half)) * scale;
+        const glm::dvec3 low = sky.low[cell] * scale, high = sky.high[cell] * scale;
         made.low = glm::vec3(low);
         made.high = glm::vec3(high);
-        const glm::dvec3 mean = 0.5 * (maps.radiance(cell, std::max(0.0, height - half)) +
-                                       maps.radiance(cell, std::max(0.0, height + half)));
-        const double area = weight / (luminance(mean) * angle);
+        const double area = weight / (luminance(0.5 * (sky.low[cell] + sky.high[cell])) * angle);
         light.skyPeak = std::max(light.skyPeak, glm::compMax(glm::max(low, high)) * area);
         light.skyPeakDensity = std::max(light.skyPeakDensity, glm::compMax(glm::max(low, high)));
     }
 }
 
+SkyLight skyLight(const sky::SkyMaps& maps, const glm::dvec2& heights) {
+    SkyLight light{maps.frame(), {}, {}};
+    for (int cell = 0; cell < sky::SkyMaps::cells; ++cell) {
+        light.low.push_back(maps.radiance(cell, heights.x));
+        light.high.push_back(maps.radiance(cell, heights.y));
+    }
+    return light;
+}
+
 }  // namespace
+
+glm::dvec2 heightsOf(const sky::Atmosphere& atmosphere, const Box& box) {
+    const glm::dvec3 middle = box.origin + box.edges * (0.5 * box.size);
+    const glm::dvec2 ends = endsAlong(box, atmosphere.upAt(middle));
+    const double height = atmosphere.heightAt(middle), half = 0.5 * (ends.y - ends.x);
+    return {std::max(0.0, height - half), std::max(0.0, height + half)};
+}
 
 AirLight makeAirLight(const sky::Atmosphere& atmosphere, const sky::SkyMaps* maps, const scene::Sun& sun,
                       const Box& box) {
@@ -134,7 +98,21 @@ AirLight makeAirLight(const sky::Atmosphere& atmosphere, const sky::SkyMaps* map
     const glm::dvec3 up = atmosphere.upAt(box.origin + box.edges * (0.5 * box.size));
     light.origin = box.origin;
     addSun(light, atmosphere, sun, box, acrossOf(sun.directionTo, up), up);
-    if (maps != nullptr) addSky(light, atmosphere, *maps, box, up);
+    if (maps != nullptr) addSky(light, skyLight(*maps, heightsOf(atmosphere, box)), box);
+    return light;
+}
+
+AirLight makeMapLight(const sky::MapSky& map, const scene::Sun& sun, const Box& box) {
+    AirLight light;
+    light.sunAbove = sun.irradiance;
+    light.mostSun = glm::dvec3(1.0);
+    light.sunColours.assign(std::size_t{shared::SUN_COLOUR_COLUMNS} * shared::SUN_COLOUR_ROWS, glm::vec3(1.0F));
+    light.origin = box.origin;
+    const sky::LatLong cells = map.cells(mapColumns);
+    SkyLight sky{{{cells.width, cells.height}, map.axes()}, {}, {}};
+    for (const glm::vec3& pixel : cells.pixels) sky.low.emplace_back(pixel);
+    sky.high = sky.low;
+    addSky(light, sky, box);
     return light;
 }
 
@@ -147,6 +125,9 @@ AirLight forArea(const AirLight& light, double area, const glm::dvec3& origin) {
         cell.low /= static_cast<float>(factor);
         cell.high /= static_cast<float>(factor);
     }
+    const auto weights = static_cast<std::size_t>(shared::FOG_SKY_HEIGHTS * sky::SkyMaps::cells);
+    for (std::size_t i = 0; i < std::min(weights, scaled.fogSky.size()); ++i)
+        scaled.fogSky[i] /= static_cast<float>(factor);
     const glm::dvec3 shift = origin - light.origin;
     scaled.origin = origin;
     scaled.place.origin +=

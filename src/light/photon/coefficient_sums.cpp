@@ -1,11 +1,13 @@
 #include "light/photon/coefficient_sums.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
 #include <string>
 
 #include "gpu/groups.h"
+#include "gpu/transfer.h"
 
 namespace lumulus::photon {
 
@@ -47,6 +49,36 @@ CoefficientSums::CoefficientSums(gpu::Context& context, const Options& options, 
 void CoefficientSums::setUnit(int baseExponent) {
     baseExponent_ = baseExponent;
     hasUnit_ = true;
+}
+
+void CoefficientSums::goOnFrom(CoefficientSums& other, std::span<const BufferPart> parts) {
+    assert(keepRing_ && kept_ == 0 && slots_.size() == other.slots_.size());
+    kept_ = other.kept_;
+    baseExponent_ = other.baseExponent_;
+    hasUnit_ = other.hasUnit_;
+    saturatedCount_ = other.saturatedCount_;
+    for (std::size_t i = 0; i < slots_.size(); ++i) copyParts(context_, other.slots_[i], slots_[i], parts);
+    copyParts(context_, other.startedSum(), startedSum(), parts);
+}
+
+void CoefficientSums::goOnFrom(std::span<const std::int64_t> sum, int generations, std::optional<int> baseExponent,
+                               std::uint64_t saturated) {
+    assert(!keepRing_ && kept_ == 0 && sum.size() == coefficients_);
+    kept_ = generations;
+    if (baseExponent) setUnit(*baseExponent);
+    saturatedCount_ = saturated;
+    gpu::upload(context_, startedSum(), sum);
+}
+
+void CoefficientSums::add(std::span<const std::int64_t> counts, int generations, int baseExponent) {
+    constexpr std::int64_t limit = 0x1FFFFFFFFFFFFFFF;  // as in accumulate.comp
+    assert(!keepRing_ && !begun_ && counts.size() == coefficients_ && (!hasUnit_ || baseExponent_ == baseExponent));
+    settleAll();
+    setUnit(baseExponent);
+    auto sum = gpu::download<std::int64_t>(context_, startedSum());
+    for (std::size_t i = 0; i < counts.size(); ++i) sum[i] = std::clamp(sum[i] + counts[i], -limit, limit);
+    gpu::upload(context_, startedSum(), std::span<const std::int64_t>(sum));
+    kept_ += generations;
 }
 
 int CoefficientSums::shiftOf(int unitExponent) const {

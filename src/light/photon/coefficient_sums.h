@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "gpu/commands.h"
 #include "gpu/program.h"
+#include "light/photon/copy_parts.h"
 #include "light/photon/generation.h"
 #include "light/photon/photon_map.h"
 #include "shared/photon.h"
@@ -18,6 +20,19 @@ class CoefficientSums {
   public:
     /// `coefficients` of one generation.
     CoefficientSums(gpu::Context& context, const Options& options, std::uint32_t coefficients);
+
+    /// Goes on with the generations of another ring of as many slots: `parts` of them have their places here, and the
+    /// rest is 0. Before the first generation.
+    void goOnFrom(CoefficientSums& other, std::span<const BufferPart> parts);
+
+    /// Goes on with the sum of so many generations, whose counts stand for 2^baseExponent W; none where there was no
+    /// light. Before the first generation; without a ring.
+    void goOnFrom(std::span<const std::int64_t> sum, int generations, std::optional<int> baseExponent,
+                  std::uint64_t saturated);
+
+    /// Adds counts of 2^baseExponent W that stand for so many generations more; the unit stays, where there is one
+    /// already. Without a ring, after the last generation.
+    void add(std::span<const std::int64_t> counts, int generations, int baseExponent);
 
     std::uint32_t coefficients() const { return coefficients_; }
     bool hasUnit() const { return hasUnit_; }

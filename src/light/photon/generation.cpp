@@ -8,6 +8,7 @@
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
 #include "light/photon/map_limits.h"
+#include "light/photon/surroundings.h"
 #include "light/photon/trace_program.h"
 #include "shared/collision_estimator.h"
 #include "shared/rng.h"
@@ -58,11 +59,6 @@ std::uint32_t capacityFor(std::uint64_t photons, std::uint32_t invocations) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, roundRecords / invocations));
 }
 
-std::vector<SpecConstant> withGround(std::vector<SpecConstant> constants, const Options& options) {
-    if (options.ground) constants.push_back(SpecConstant::of(6, true));
-    return constants;
-}
-
 }  // namespace
 
 void PassLog::add(const gpu::Commands& commands) {
@@ -80,9 +76,9 @@ void PassLog::add(const gpu::Commands& commands) {
 GenerationTracer::GenerationTracer(gpu::Context& context, const MapPart& part, const Options& options)
     : GenerationTracer(context,
                        {&part, nullptr, traceSpirv(),
-                        withGround(traceConstants(part.medium.tables, part.medium.albedo, false, part.asset->isSparse(),
-                                                  options.air),
-                                   options),
+                        withSurroundings(traceConstants(part.medium.tables, part.medium.albedo, false,
+                                                        part.asset->isSparse(), options.air),
+                                         options),
                         part.collectors, part.estimatorBase + shared::estimatorCounts(part.estimates.cells)},
                        options) {}
 
@@ -90,7 +86,7 @@ GenerationTracer::GenerationTracer(gpu::Context& context, const WorldWalk& walk,
                                    std::uint32_t axisBase, const Options& options)
     : GenerationTracer(
           context,
-          {nullptr, &walk, walk.spirv(), withGround(walk.constants(options.air), options), collectors, axisBase},
+          {nullptr, &walk, walk.spirv(), withSurroundings(walk.constants(options.air), options), collectors, axisBase},
           options) {}
 
 GenerationTracer::GenerationTracer(gpu::Context& context, const Walked& walked, const Options& options)
@@ -120,12 +116,20 @@ GenerationTracer::GenerationTracer(gpu::Context& context, const Walked& walked, 
               Memory::device),
       inverseCdf_(context, "inverse cdf", part_ != nullptr ? part_->medium.tables.inverseCdf.size() * sizeof(float) : 0,
                   Memory::device),
-      skyCells_(context, "sky cells", options.air ? sky::SkyMaps::cells * sizeof(shared::SkyCell) : 0, Memory::host),
+      skyCells_(context, "sky cells",
+                options.air
+                    ? static_cast<std::uint64_t>(options.skyCells.x * options.skyCells.y) * sizeof(shared::SkyCell)
+                    : 0,
+                Memory::host),
       sunColours_(
           context, "sun colours",
           options.air ? std::uint64_t{shared::SUN_COLOUR_COLUMNS} * shared::SUN_COLOUR_ROWS * sizeof(glm::vec3) : 0,
           Memory::host),
+      fogSky_(context, "fog sky",
+              options.fog ? std::uint64_t{shared::FOG_SKY_HEIGHTS} * (sky::SkyMaps::cells + 1) * sizeof(glm::vec3) : 0,
+              Memory::host),
       commands_(context) {
+    if (world_ != nullptr) starts_.emplace(context, *world_, options, invocations_);
     if (part_ != nullptr && !part_->medium.tables.inverseCdf.empty())
         gpu::upload(context, inverseCdf_, part_->medium.tables.inverseCdf);
 }
@@ -161,8 +165,9 @@ void GenerationTracer::setCloud(shared::TraceParams& p, double extinction) const
 void GenerationTracer::setAir(const AirLight& air) {
     std::ranges::copy(air.cells, skyCells_.mapped<shared::SkyCell>().begin());
     std::ranges::copy(air.sunColours, sunColours_.mapped<glm::vec3>().begin());
+    if (options_.fog) std::ranges::copy(air.fogSky, fogSky_.mapped<glm::vec3>().begin());
     airPlace_ = air.place;
-    skyAxes_ = glm::mat3(air.skyAxes);
+    skyAxes_ = glm::mat3(air.skyFrame.axes);
 }
 
 shared::TraceParams GenerationTracer::traceParams(const Emission& emission, const scene::Sun& sun, double extinction,
@@ -253,9 +258,14 @@ void GenerationTracer::round(const gpu::Buffer& coefficients) {
                                      {"Counters", counters_},
                                      {"SkyCells", skyCells_},
                                      {"SunColours", sunColours_},
+                                     {"FogSky", fogSky_},
                                      {"CollisionEstimates", coefficients},
                                      {"GroundLight", ground_ != nullptr ? *ground_ : params_}});
     commands_.begin();
+    if (starts_) {
+        starts_->record(commands_, bindings, params_.mapped<shared::TraceParams>()[0].stepLimit);
+        bindings.push_back(starts_->binding());
+    }
     commands_.pass("trace");
     commands_.fill(collectorCounts_, 0);
     commands_.barrier("counts cleared");

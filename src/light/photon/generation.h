@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "base/cut_off.h"
@@ -11,6 +12,7 @@
 #include "light/photon/air_light.h"
 #include "light/photon/emission.h"
 #include "light/photon/photon_map.h"
+#include "light/photon/photon_starts.h"
 #include "light/photon/world_walk.h"
 #include "shared/photon.h"
 
@@ -79,10 +81,12 @@ class GenerationTracer {
     const gpu::Buffer* ground_ = nullptr;
 
     gpu::Program<gpu::NoPush> traceProgram_;
+    std::optional<PhotonStarts> starts_;  ///< of several clouds
     gpu::Program<shared::GatherPush> scanProgram_, scatterProgram_, gatherProgram_;
     gpu::Buffer params_, states_, records_, recordCounts_, collectorCounts_, counters_;
     gpu::Buffer cursors_, chunkOffsets_, gatherArguments_, sorted_, inverseCdf_;
-    gpu::Buffer skyCells_, sunColours_;  ///< of an atmosphere; a few bytes where there is none
+    gpu::Buffer skyCells_, sunColours_;  ///< of an atmosphere or of fog; a few bytes where there is none
+    gpu::Buffer fogSky_;                 ///< the same of fog
     shared::AirPlace airPlace_{};
     glm::mat3 skyAxes_{1.0F};
     gpu::Commands commands_;

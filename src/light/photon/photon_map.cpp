@@ -3,19 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <deque>
 #include <glm/gtx/component_wise.hpp>
 #include <optional>
 #include <utility>
 
-#include "gpu/transfer.h"
-#include "light/photon/coefficient_sums.h"
-#include "light/photon/collector_light.h"
-#include "light/photon/emission.h"
-#include "light/photon/generation.h"
-#include "light/photon/ground.h"
-#include "light/photon/map_layout.h"
-#include "light/photon/world_walk.h"
+#include "light/photon/photon_map_state.h"
 #include "shared/collision_estimator.h"
 #include "shared/photon.h"
 
@@ -35,55 +27,7 @@ int exponentAbove(double value) {
     return static_cast<int>(std::ceil(std::log2(value)));
 }
 
-/// What lit a generation.
-struct Lit {
-    double flux = 0.0;             // luminance [W]
-    glm::dvec3 sunDirection{0.0};  // of travel
-};
-
 }  // namespace
-
-struct PhotonMap::State {
-    State(gpu::Context& gpuContext, std::vector<MapPart> theParts, const cloud::SharedVolumes* volumes,
-          const Options& theOptions);
-
-    gpu::Context& context;
-    std::vector<MapPart> parts;
-    Options options;
-    std::uint32_t axisBase;
-    std::uint32_t collectors;
-
-    CoefficientSums sums;
-    std::optional<WorldWalk> walk;  // where there are several instances
-    GenerationTracer tracer;
-    std::optional<GroundWalk> groundWalk;  // where there is a ground
-    std::optional<Ground> ground;
-    CollectorLight reconstruction;
-
-    Lit newest;         // of the generations that count
-    Counters counters;  // of all generations, also those that were dropped
-    PassLog log;
-    /// Of the generations in the ring: extinction of each part over that of its medium.
-    std::deque<std::vector<double>> ringExtinctions;
-    double newExtinction = 0.0;     // of the one cloud, of the generation that is traced [1/m]
-    std::vector<Placement> places;  // of several instances
-
-    /// A generation that waits for keep() or drop(). Pictures show the light of before until then.
-    struct Begun {
-        Lit lit;
-        std::vector<double> extinctions;  // of each part over that of its medium
-        Counters countersBefore;          // what drop() goes back to
-    };
-    std::optional<Begun> begun;
-
-    Emission emissionOf(const scene::Sun& sun, const sky::Environment& environment, const AirLight* air) const;
-    Emission emissionUnder(const scene::Sun& sun, const sky::Environment& environment) const;
-    double meanExtinction(std::size_t part) const;
-    void placeCollectors();
-    /// `greatest`: the sun's largest irradiance that the ring may have to hold [W/m²].
-    int unitExponentFor(const Emission& emission, const glm::dvec3& greatest);
-    bool traceLit(const Emission& emission, const scene::Sun& sun, const glm::dvec3& greatest, const CutOff& cutOff);
-};
 
 PhotonMap::State::State(gpu::Context& gpuContext, std::vector<MapPart> theParts, const cloud::SharedVolumes* volumes,
                         const Options& theOptions)
@@ -143,7 +87,8 @@ double PhotonMap::State::meanExtinction(std::size_t part) const {
     if (ringExtinctions.empty()) return 1.0;
     double sum = 0.0;
     for (const std::vector<double>& generation : ringExtinctions) sum += generation[part];
-    return sum / static_cast<double>(ringExtinctions.size());
+    // of a part that no generation has seen yet there is no light to divide
+    return sum > 0.0 ? sum / static_cast<double>(ringExtinctions.size()) : 1.0;
 }
 
 /// Where the collectors of several instances are, and their masses.
@@ -163,20 +108,6 @@ void PhotonMap::State::placeCollectors() {
     }
     reconstruction.setPlaces(texels);
 }
-
-namespace {
-
-MapPart onlyPart(const cloud::Asset& cloud, const glm::dmat3& voxelToMetres, const Medium& medium,
-                 const Options& options) {
-    MapPart part;
-    part.asset = &cloud;
-    part.medium = medium;
-    part.voxelToMetres = voxelToMetres;
-    part.estimates = options.estimates;
-    return part;
-}
-
-}  // namespace
 
 PhotonMap::PhotonMap(gpu::Context& context, const cloud::Asset& cloud, const Medium& medium, const Options& options)
     : PhotonMap(context, cloud, cloud.voxelToMetres, medium, options) {}
@@ -366,19 +297,6 @@ const std::vector<gpu::Step>& PhotonMap::steps() const {
 }
 double PhotonMap::unit() const {
     return std::ldexp(1.0, state_->sums.baseExponent());
-}
-
-std::vector<std::int64_t> PhotonMap::downloadSum() {
-    state_->sums.settleAll();
-    auto values = gpu::download<std::int64_t>(state_->context, state_->sums.startedSum());
-    values.resize(state_->sums.coefficients());
-    return values;
-}
-
-std::vector<std::int64_t> PhotonMap::downloadSlot(int slot) const {
-    auto values = gpu::download<std::int64_t>(state_->context, state_->sums.slots().at(static_cast<std::size_t>(slot)));
-    values.resize(state_->sums.coefficients());
-    return values;
 }
 
 double PhotonMap::massScale(std::size_t part) const {

@@ -36,7 +36,9 @@ struct Options {
     bool splitGenerations = false;
     bool ground = false;  ///< whether there is a ground below the clouds, see setGround()
     std::uint64_t memoryBudget = std::uint64_t{1} << 30U;  ///< bytes for all coefficients
-    bool air = false;                                      ///< whether the light is that of an atmosphere
+    bool air = false;             ///< whether the light differs by direction or height: of an atmosphere, fog or a map
+    bool fog = false;             ///< whether it is that of fog
+    glm::ivec2 skyCells{64, 32};  ///< of that light
     /// Asked between the rounds of a generation, and may throw. Then a map with a ring has the light of before; one
     /// without is of no more use.
     Check check = stopIfInterrupted;
@@ -62,6 +64,8 @@ struct Light {
 };
 
 struct Ground;
+struct MapPlan;
+struct TracedSums;
 
 /// The photon map: a ring of generations, each [collector][RGB][bands²] int64 of spherical-harmonic coefficients, then
 /// the estimates (shared/collision_estimator.h) and, where the phase function has a backward peak, the rings about the
@@ -93,6 +97,20 @@ class PhotonMap {
     /// it.
     bool tryTrace(const scene::Sun& sun, const sky::Environment& environment, const CutOff& cutOff,
                   std::optional<double> extinction = {}, const AirLight* air = nullptr);
+    /// Goes on with the generations of another map of the same ring: `before[i]` is the part of it that part i was,
+    /// none where it is new. What is new gets its light from the next generations, by which it is the mean of those
+    /// alone. Before the first generation; begins anew where there is a ground, whose light lies elsewhere then.
+    void goOnFrom(PhotonMap& other, std::span<const std::optional<std::size_t>> before);
+    /// What all generations have left, for a map without a ring.
+    TracedSums tracedSums();
+    /// Goes on with the generations of a map of the same scene, as if they had been traced here. Before the first
+    /// generation of a map without a ring. Errors: InputError where it cannot be of the same scene.
+    void goOnFrom(const TracedSums& sums);
+    /// Adds counts of 2^unitExponent W, which is the unit of what was traced, as those of so many generations more. For
+    /// a map without a ring, after its last generation.
+    void add(std::span<const std::int64_t> counts, int generations, int unitExponent);
+    /// How the counts of the parts lie among all.
+    MapPlan plan() const;
     /// Where the instances are from now on, one for each part. A map of several needs it
     /// before all else.
     void place(std::span<const Placement> places);

@@ -142,6 +142,7 @@ class Layer {
                             {"Counters", counters_},
                             {"SkyCells", inverseCdf_},
                             {"SunColours", inverseCdf_},
+                            {"FogSky", inverseCdf_},
                             {"CollisionEstimates", counters_},
                             {"GroundLight", params_}},
                            {}, gpu::linearGroups(lanes, 64));

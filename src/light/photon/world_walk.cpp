@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "gpu/transfer.h"
+#include "light/photon/entry_grid.h"
 
 namespace lumulus::photon {
 
@@ -143,15 +144,21 @@ void WorldWalk::makeDiscs(std::span<const Placement> places) {
     lower -= 0.01 * edge;
     upper += 0.01 * edge;
     grid_ = cloud::mergeGrids(sources, lower, upper, edge);
-    bricks_.reset(), cells_.reset(), lists_.reset(), discs_.reset();
+    const EntryGrid entries = makeEntryGrid(ellipsoids, lower, upper);
+    bricks_.reset(), cells_.reset(), lists_.reset(), discs_.reset(), entries_.reset();
     bricks_.emplace(texelBuffer(context_, "merged bricks", grid_.numbers, VK_FORMAT_R32_UINT));
     cells_.emplace(texelBuffer(context_, "merged cells", grid_.cells, VK_FORMAT_R32G32_UINT));
     lists_.emplace(texelBuffer(context_, "lists of instances", grid_.lists, VK_FORMAT_R32_UINT));
     discs_.emplace(texelBuffer(context_, "entry discs", entryDiscs(ellipsoids, shares, grid_.origin),
                                VK_FORMAT_R32G32B32A32_SFLOAT));
-    gridParams_.mapped<shared::MergedGridParams>()[0] = {grid_.bricks, static_cast<std::uint32_t>(parts_.size()),
+    entries_.emplace(texelBuffer(context_, "entry lists", entries.lists, VK_FORMAT_R32_UINT));
+    gridParams_.mapped<shared::MergedGridParams>()[0] = {grid_.bricks,
+                                                         static_cast<std::uint32_t>(parts_.size()),
                                                          static_cast<float>(grid_.edge),
-                                                         static_cast<float>(largestWeight_)};
+                                                         static_cast<float>(largestWeight_),
+                                                         entries.cells,
+                                                         static_cast<float>(entries.edge),
+                                                         0U};
 }
 
 void WorldWalk::makeInstances(std::span<const Placement> places) {
@@ -177,6 +184,7 @@ void WorldWalk::makeInstances(std::span<const Placement> places) {
 
 void WorldWalk::setParams(shared::TraceParams& params) const {
     params.cells = grid_.bricks * shared::MERGED_BRICK;
+    params.cellSize = glm::vec3(static_cast<float>(grid_.edge));  // of places in metres
     params.worldToCells = glm::mat3(static_cast<float>(1.0 / grid_.edge));
 }
 
@@ -189,8 +197,15 @@ std::vector<gpu::Binding> WorldWalk::bindings() const {
             {"mergedBricks", *bricks_},
             {"mergedCells", *cells_},
             {"lists", *lists_},
-            {"entryDiscs", *discs_},
             {"walkedInstances", *instances_}};
+}
+
+std::vector<gpu::Binding> WorldWalk::entryBindings() const {
+    return {{"Grid", gridParams_}, {"entryDiscs", *discs_}, {"entryLists", *entries_}};
+}
+
+void WorldWalk::setStarts(std::uint32_t starts) const {
+    gridParams_.mapped<shared::MergedGridParams>()[0].starts = starts;
 }
 
 }  // namespace lumulus::photon

@@ -32,6 +32,10 @@ class WorldWalk {
     void setParams(shared::TraceParams& params) const;
     /// What the program binds beside what all walks bind.
     std::vector<gpu::Binding> bindings() const;
+    /// What the program binds that finds where photons begin.
+    std::vector<gpu::Binding> entryBindings() const;
+    /// Photons that an invocation may begin in the next round.
+    void setStarts(std::uint32_t starts) const;
 
     /// Area that a photon may stand for at most [m²].
     double largestWeight() const { return largestWeight_; }
@@ -60,7 +64,7 @@ class WorldWalk {
     double largestWeight_ = 0.0, area_ = 0.0;
     std::vector<double> meanWeights_;
     gpu::Buffer inverseCdf_, gridParams_;
-    std::optional<gpu::Buffer> bricks_, cells_, lists_, instances_, discs_;
+    std::optional<gpu::Buffer> bricks_, cells_, lists_, instances_, discs_, entries_;
 };
 
 }  // namespace lumulus::photon

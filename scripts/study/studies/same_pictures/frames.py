@@ -12,7 +12,7 @@ from study.studies.same_pictures.side import Case
 PRODUCTS = ["color", "cloud", "transmittance", "depth", "front"]
 SUN = {"azimuth": -100, "elevation": 10}
 CAMERA = {"position": [300, 50, 20], "target": [0, 100, 0], "vertical_fov": 60}
-FOG = '[{kind="exponential", scattering=0.004, falloff=0.01, g=0.8}]'
+FOG = '[{kind="exponential", scattering=0.004, falloff=0.01, g=0.8, bottom=-200}]'
 TILES = [{"width": 64, "height": 48, "tile": tile} for tile in ([0, 0, 33, 48], [33, 0, 31, 17], [33, 17, 31, 31])]
 VIEWS = [{"width": 64, "height": 48}, {"width": 40, "height": 31, "camera": CAMERA},
          {"width": 48, "height": 24, "camera": {**CAMERA, "projection": "panorama"}},

@@ -13,7 +13,7 @@ FEW_PHOTONS = ["photon_map.photons=40000", "photon_map.generations=4"]
 SMALL = [*size_sets(WIDTH, HEIGHT), *FEW_PHOTONS, "preparation.samples=2000"]
 SMALL_CLOUD = ["cloud.0.resolution=64"]
 BESIDE = ["camera.position=[430,150,1180]", "camera.target=[0,300,0]"]
-FOG = '[{kind="homogeneous", scattering=[0.0004, 0.0006, 0.001], absorption=0.0001, g=0.8, emission=1e-5}, ' \
+FOG = '[{kind="homogeneous", scattering=[0.0004, 0.0006, 0.001], absorption=0.0001, g=0.8, emission=1e-5, bottom=-300, top=1500}, ' \
       '{kind="sphere", scattering=0.004, center=[0, 200, 300], radius=250.0}]'
 
 # name, scene, overrides, whether it is one of the quick cases

@@ -1,0 +1,54 @@
+// Fog in the light of sun and sky, as a picture shows it.
+#ifndef LUMULUS_SHARED_LIT_FOG_H
+#define LUMULUS_SHARED_LIT_FOG_H
+
+#include "shared/draw.h"
+#include "shared/fog.h"
+#include "shared/fog_light.h"
+
+SHARED_BEGIN
+
+/// Heights are metres; places relative to the eye.
+struct LitFogParams {
+    ViewParams view;
+    ivec2 first;  // pixel of the picture where the frame begins
+    vec3 toSun;
+    vec3 sunIrradiance;  // above the fog
+    vec2 sunAcross;      // horizontal direction towards the sun, x and z
+    float eyeHeight;     // above the lowest level
+    float height;        // of the highest level above the lowest
+    int levels;
+    int media;          // fog, in the order of the tables
+    float aboveGround;  // of the eye; where there is a ground
+    int casters;
+    vec3 inverseShadows;  // 1 / size of the image of all shadow volumes
+    vec3 sky;             // radiance behind all fog, where it is the same everywhere
+    int airMedia;         // of the air in the fog, after those of the fog
+    float aboveTop;       // of the eye above the fog; below 0 within it
+    float planetHeight;   // of the eye above the middle of the planet
+    vec3 up;              // at the eye
+    // How far beside light passes that was scattered once, for each metre of its way: m (u / (1 − u))^p of u in [0,1)
+    float besideMedian;
+    float besidePower;
+};
+
+/// What the light of clouds has more or less than that of the fog without them: whether any pixel has some.
+struct LitFogSummary {
+    uint more;
+    uint less;
+    uint farthest;  // bits of the largest distance [m]
+};
+
+/// A cloud that throws a shadow, ten texels: rows from places to voxels; size in voxels; rows from voxels to texture
+/// coordinates of its shadow volume; where the volume begins in the image of all, and how large it is [texels]; optical
+/// depth of the truncated medium per true one.
+const int CASTER_TEXELS = 10;
+
+#ifdef __cplusplus
+static_assert(sizeof(LitFogParams) == 176 && offsetof(LitFogParams, besidePower) == 172);
+static_assert(sizeof(LitFogSummary) == 12 && offsetof(LitFogSummary, farthest) == 8);
+#endif
+
+SHARED_END
+
+#endif

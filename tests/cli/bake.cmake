@@ -1,0 +1,5 @@
+set(bake_test ${DEBIAN_PYTHON3} ${CMAKE_CURRENT_LIST_DIR}/bake_test.py $<TARGET_FILE:lumulus> $<TARGET_FILE:make_vdb_fixtures>)
+add_test(NAME cli.bake COMMAND ${bake_test} Bake)
+add_test(NAME cli.bake_refusals COMMAND ${bake_test} Refusals)
+add_test(NAME cli.bake_example COMMAND ${bake_test} Example)
+set_tests_properties(cli.bake cli.bake_refusals cli.bake_example PROPERTIES TIMEOUT 300)
