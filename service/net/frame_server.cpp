@@ -18,6 +18,8 @@ using Stream = asio::generic::stream_protocol::socket;
 using Local = asio::local::stream_protocol;
 
 constexpr std::size_t readBytes = 64UL << 10U, strangerBytes = 4UL << 10U;
+/// A reader that takes what the kernel copies would keep the thread copying: milliseconds for a large picture.
+constexpr std::size_t writtenBytes = 256UL << 10U;
 constexpr std::size_t refusalsAtOnce = 32;
 
 /// Bytes over a stream socket.
@@ -35,8 +37,9 @@ class StreamCarrier {
     asio::awaitable<std::size_t> write(const std::vector<std::byte>& head, const std::vector<std::byte>& payload,
                                        std::size_t done, error_code& error) {
         const std::size_t inHead = std::min(done, head.size());
-        const std::array<asio::const_buffer, 2> buffers{asio::buffer(head) + inHead,
-                                                        asio::buffer(payload) + (done - inHead)};
+        const std::array<asio::const_buffer, 2> buffers{
+            asio::buffer(head) + inHead,
+            asio::buffer(payload.data() + (done - inHead), std::min(payload.size() - (done - inHead), writtenBytes))};
         co_return co_await socket_.async_write_some(buffers, intoError(error));
     }
 

@@ -64,7 +64,7 @@ std::shared_ptr<Peer> Hub::open(const std::string& from, std::function<void()> w
 void Hub::close(const std::shared_ptr<Peer>& peer, const std::string& why) {
     if (peers_.erase(peer->client()) == 0) return;
     peer->closeNow();
-    bridge_.dispose(std::make_shared<std::deque<Outgoing>>(peer->takeRest()));
+    dispose(peer->takeRest());
     bridge_.service().removeClient(peer->client());
     uploads_.dropConnection(peer->client());
     metrics_.set(Metrics::connectionsOpen, static_cast<std::int64_t>(peers_.size()));
@@ -153,7 +153,10 @@ void Hub::stored(ClientId client, Message reply) {
 
 void Hub::deliver(ClientId client, RenderBridge::Outbound outbound) {
     const auto it = peers_.find(client);
-    if (it == peers_.end()) return;
+    if (it == peers_.end() || it->second->closed()) {
+        bridge_.dispose(std::make_shared<RenderBridge::Outbound>(std::move(outbound)));
+        return;
+    }
     if (outbound.message.type != replyTo(MessageType::startStream)) it->second->ended(outbound.message.id);
     it->second->enqueue(std::move(outbound.message), outbound.frame, std::move(outbound.memory));
 }
@@ -163,6 +166,14 @@ void Hub::sent(Peer& peer, std::size_t bytes, bool complete) {
     auto out = peer.wrote(bytes, complete);
     if (out && out->frame) bridge_.service().frameSent(peer.client());
     if (out && out->payload.size() > largeBytes) bridge_.dispose(std::make_shared<Outgoing>(std::move(*out)));
+}
+
+void Hub::ended(Peer& peer) {
+    dispose(peer.takeAll());
+}
+
+void Hub::dispose(std::deque<Outgoing> messages) {
+    if (!messages.empty()) bridge_.dispose(std::make_shared<std::deque<Outgoing>>(std::move(messages)));
 }
 
 void Hub::watch(Clock::time_point now) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -36,6 +37,8 @@ class Hub {
     void received(Peer& peer, std::span<const std::byte>& bytes);
     /// Notes that bytes of the message which the peer was given first have left; `complete`: all of them.
     void sent(Peer& peer, std::size_t bytes, bool complete);
+    /// Nothing more is written to it.
+    void ended(Peer& peer);
 
     /// Ends connections that are slow or silent, and uploads that are old.
     void watch(Clock::time_point now);
@@ -55,6 +58,7 @@ class Hub {
     void answer(Peer& peer, Incoming incoming);
     void deliver(ClientId client, RenderBridge::Outbound outbound);
     void stored(ClientId client, Message reply);
+    void dispose(std::deque<Outgoing> messages);
 
     const Config& config_;
     Metrics& metrics_;

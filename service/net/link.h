@@ -111,6 +111,7 @@ class Link : public std::enable_shared_from_this<Link<Carrier>> {
             wake_.cancel();  // the reader may wait for room
         }
         peer_->closeNow();
+        hub_.ended(*peer_);
         notify();
     }
 

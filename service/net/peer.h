@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "service/net/config.h"
@@ -50,8 +51,10 @@ class Peer {
     /// Notes that bytes of next() have left. Where it is `complete`, it is removed and returned.
     std::optional<Outgoing> wrote(std::size_t bytes, bool complete);
 
-    /// What waits behind next() once the connection has ended: to be freed where that takes no time from others.
+    /// What waits once the connection has ended, to be freed where that takes no time from others: behind next(), whose
+    /// bytes may be on their way, or with it.
     std::deque<Outgoing> takeRest();
+    std::deque<Outgoing> takeAll() { return std::exchange(outbox_, {}); }
 
     /// Whether so much waits to be written or stored that no more input may be taken.
     bool overfull() const;
@@ -66,6 +69,7 @@ class Peer {
     void closeNow();
     bool finished() const { return closed_ || (closing_ && outbox_.empty()); }
     bool closing() const { return closing_ || closed_; }
+    bool closed() const { return closed_; }
 
     /// Why the connection has to end; none where it may go on.
     std::optional<std::string> timedOut(Clock::time_point now);
