@@ -168,6 +168,21 @@ TEST(Atmosphere, LuminanceOfTheZenith) {
     for (const auto& row : published) EXPECT_NEAR(zenith(row[0]), row[1], 0.15 * row[1]) << row[0];
 }
 
+/// Hošek and Wilkie 2012, turbidity 2 to 2.5: zenith [cd/m²] and level illuminance of the sky [klx]. At 30° and 10° their
+/// zenith is a third to a half brighter than Karayel's, so that they bound from above what lies near Karayel's.
+TEST(Atmosphere, SkyBesideThatOfHosek) {
+    struct Row {
+        double elevation, zenithFrom, zenithTo, luxFrom, luxTo, most;
+    };
+    for (const Row& row : {Row{60, 3119, 3507, 15.2e3, 16.5e3, 0.15}, Row{30, 1995, 2074, 13.1e3, 14.1e3, 0.35},
+                           Row{10, 1139, 1163, 8.5e3, 8.9e3, 0.35}}) {
+        EXPECT_GT(zenith(row.elevation), (1.0 - row.most) * row.zenithFrom) << row.elevation;
+        EXPECT_LT(zenith(row.elevation), 1.15 * row.zenithTo) << row.elevation;
+        EXPECT_GT(skyLux(row.elevation), (1.0 - 0.25) * row.luxFrom) << row.elevation;
+        EXPECT_LT(skyLux(row.elevation), 1.05 * row.luxTo) << row.elevation;
+    }
+}
+
 /// Explanatory Supplement to the Astronomical Almanac: sun and sky on level ground.
 TEST(Atmosphere, IlluminanceOfTheGround) {
     const std::array<std::array<double, 2>, 6> day{
