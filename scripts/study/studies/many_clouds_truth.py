@@ -10,8 +10,8 @@ from study.lumulus import Lumulus, add_common_options
 from study.program import size_sets
 from study.tables import Table, write_figures
 
-SUNS = {60: "azimuth = 60.0\nelevation = 60.0\n", 20: "azimuth = 60.0\nelevation = 20.0\nirradiance = [5.0, 4.3, 3.3]\n",
-        5: "azimuth = 60.0\nelevation = 5.0\nirradiance = [3.2, 2.1, 1.0]\n"}
+# elevation, and irradiance before a constant sky
+SUNS = {60: "", 20: "irradiance = [5.0, 4.3, 3.3]\n", 5: "irradiance = [3.2, 2.1, 1.0]\n"}
 
 CLOUD = """[[cloud]]
 procedural = "cumulus"
@@ -51,30 +51,35 @@ def cloud(seed, x, y, z, scale=1.0, extinction=0.06, resolution=64):
     return CLOUD.format(seed=seed, x=x, y=y, z=z, scale=scale, extinction=extinction, resolution=resolution)
 
 
-def scene(camera, sun, rest):
-    return f"[sky]\nradiance = [0.09, 0.17, 0.34]\n[sun]\n{sun}{camera}{rest}"
+def scene(sky, camera, azimuth, elevation, irradiance, rest):
+    model = "radiance = [0.09, 0.17, 0.34]" if sky == "constant" else 'model = "atmosphere"'
+    sun = irradiance if sky == "constant" else ""
+    return f"[sky]\n{model}\n[sun]\nazimuth = {azimuth}\nelevation = {elevation}\n{sun}{camera}{rest}"
 
 
 NEAR = "[camera]\nvertical_fov = 36.0\n"
-BESIDE = "azimuth = 75.0\nelevation = 22.0\nirradiance = [5.0, 4.6, 3.9]\n"
+BESIDE = (75.0, 22.0, "irradiance = [5.0, 4.6, 3.9]\n")
 GROUND = "[ground]\nalbedo = 0.3\nheight = -400.0\n"
 
 
-def scenes():
-    """The text of each scene file, by its name."""
+def scenes(sky):
+    """The text of each scene file, by its name, before a constant sky or in the atmosphere."""
+    below = "" if sky == "constant" else GROUND  # the ground of the planet lies at 0 otherwise, in the clouds
     overlap = cloud(1, 0.0, 0.0, 0.0) + cloud(5, 300.0, 60.0, 80.0, 0.8)
-    found = {"two that overlap": scene(NEAR, BESIDE, overlap),
-             "one in the shadow of the other": scene(NEAR, BESIDE, cloud(1, -250.0, -120.0, 0.0, 0.8) +
+    found = {"two that overlap": scene(sky, NEAR, *BESIDE, below + overlap),
+             "one in the shadow of the other": scene(sky, NEAR, *BESIDE, below + cloud(1, -250.0, -120.0, 0.0, 0.8) +
                                                      cloud(5, 700.0, 300.0, 60.0, 0.8))}
-    for elevation, sun in SUNS.items():
-        found[f"field from the ground, sun at {elevation}"] = scene(FROM_GROUND, sun, FIELD)
-        found[f"field from 3 km, sun at {elevation}"] = scene(FROM_ABOVE, sun, FIELD)
-    found["two that overlap, above the ground"] = scene(NEAR, BESIDE, GROUND + overlap)
+    for elevation, irradiance in SUNS.items():
+        sun = (60.0, float(elevation), irradiance)
+        found[f"field from the ground, sun at {elevation}"] = scene(sky, FROM_GROUND, *sun, FIELD)
+        found[f"field from 3 km, sun at {elevation}"] = scene(sky, FROM_ABOVE, *sun, FIELD)
+    found["two that overlap, above the ground"] = scene(sky, NEAR, *BESIDE, GROUND + overlap)
     return found
 
 
 def add_options(parser):
     add_common_options(parser, width=160)
+    parser.add_argument("--sky", choices=["constant", "atmosphere"], default="constant")
     parser.add_argument("--scenes", nargs="+", help="those whose name has one of these words (default: all)")
     parser.add_argument("--quality", default="final")
     parser.add_argument("--photons", type=int, help="in the place of those of the quality")
@@ -84,7 +89,7 @@ def add_options(parser):
 
 def wanted(options):
     """Name and text of the scenes that the command line asks for."""
-    return {name: text for name, text in scenes().items()
+    return {name: text for name, text in scenes(options.sky).items()
             if not options.scenes or any(word in name for word in options.scenes)}
 
 
@@ -92,7 +97,7 @@ def main(options):
     lumulus = Lumulus.of(options, size_sets(options.width))
     table = Table(["scene", "relMSE", "bias", "seconds"])
     for name, text in wanted(options).items():
-        words = name.replace(",", "").split()
+        words = [options.sky, *name.replace(",", "").split()]
         file, picture = lumulus.path(*words, suffix=".toml"), lumulus.path(*words, options.quality)
         file.write_text(text)
         truths = [lumulus.reference(file, lumulus.path(*words, seed), spp=options.spp, seed=seed) for seed in (101, 102)]
