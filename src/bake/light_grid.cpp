@@ -64,6 +64,19 @@ void addSun(LightGrid& grid, Renderer& renderer, const Report& report, const Che
     report("sunlight", grid.places.size(), grid.places.size());
 }
 
+/// The box of voxels that leaves reach. Errors: as bakeLight().
+VoxelBox voxelsOf(std::span<const photon::LeafLight> leaves, std::optional<double> voxel) {
+    if (leaves.empty())
+        throw InputError("no light is scattered in a cloud", "scene",
+                         "give it a cloud with density and an albedo above 0, and a light");
+    constexpr double voxelsAlong = 96.0;
+    const double longest = longestSide(leaves), edge = voxel.value_or(longest / voxelsAlong);
+    if (edge > longest)
+        throw InputError(fmt::format("voxels of {:.4g} m are larger than the clouds, {:.4g} m", edge, longest),
+                         "--voxel", "give smaller ones");
+    return boxOf(leaves, edge);
+}
+
 }  // namespace
 
 glm::vec3 VoxelLight::fluence() const {
@@ -75,19 +88,15 @@ glm::vec3 VoxelLight::flux(int channel, const glm::vec3& toSun) const {
     return -static_cast<float>(std::sqrt(4.0 * pi / 3.0)) * from - sun[channel] * toSun;
 }
 
+void checkVoxels(Renderer& renderer, std::optional<double> voxel) {
+    voxelsOf(renderer.leafLight(), voxel);
+}
+
 LightGrid bakeLight(Renderer& renderer, std::optional<double> voxel, const Report& report, const Check& check) {
     const std::vector<photon::LeafLight> leaves = renderer.leafLight();
-    if (leaves.empty())
-        throw InputError("no light is scattered in a cloud", "scene",
-                         "give it a cloud with density and an albedo above 0, and a light");
-    constexpr double voxelsAlong = 96.0;
+    const VoxelHarmonics harmonics = spread(leaves, voxelsOf(leaves, voxel), check);
     LightGrid grid;
-    const double longest = longestSide(leaves);
-    grid.voxel = voxel.value_or(longest / voxelsAlong);
-    if (grid.voxel > longest)
-        throw InputError(fmt::format("voxels of {:.4g} m are larger than the clouds, {:.4g} m", grid.voxel, longest),
-                         "--voxel", "give smaller ones");
-    const VoxelHarmonics harmonics = spread(leaves, boxOf(leaves, grid.voxel), check);
+    grid.voxel = harmonics.box.voxel;
     for (std::size_t index = 0; index < harmonics.number.size(); ++index) {
         const std::int32_t number = harmonics.number[index];
         if (number < 0) continue;

@@ -35,6 +35,9 @@ struct LightGrid {
     std::vector<VoxelLight> light;   ///< as many
 };
 
+/// Refuses, before photons are traced, voxels that bakeLight() would refuse for their size.
+void checkVoxels(Renderer& renderer, std::optional<double> voxel);
+
 /// The light in the clouds of a renderer that has traced its photons, for a scene without a forward cut. `voxel`: edge
 /// [m]; absent: a 96th of the clouds' longest side. Errors: InputError where there is no light in a cloud and where
 /// voxels are too many; what `check` throws.

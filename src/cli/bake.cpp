@@ -70,6 +70,7 @@ void runBake(const BakeOptions& options) {
         told = warnings.size();
     };
     Renderer renderer(scene, how);
+    bake::checkVoxels(renderer, options.voxel);
     trace(renderer, steps);
     const bake::LightGrid grid = bake::bakeLight(renderer, options.voxel, steps.reporter(), stopIfInterrupted);
     const Statistics statistics = renderer.statistics();

@@ -77,7 +77,9 @@ class Refusals(CliTest):
     def test_bad_input(self):
         scene, out = self.scene(SCENE), self.out / "light.vdb"
         for more, says in ((["--voxel", "0"], "0 m is no edge"), (["--voxel", "nan"], "is no edge"),
-                           (["--voxel", "0.01"], "--voxel): give larger ones"),
+                           # before photons are traced, which would take hours
+                           (["--voxel", "0.01", "--set", "photon_map.photons=4000000000", "--set",
+                             "photon_map.generations=1"], "--voxel): give larger ones"),
                            (["--voxel", "wide"], "--voxel"),
                            (["--voxel", "1e300"], "larger than the clouds"),
                            (["--set", "cloud.0.albedo=0"], "no light is scattered in a cloud"),
