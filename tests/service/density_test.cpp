@@ -55,16 +55,14 @@ TEST(Density, IsForTheCloudThatIsNamedOrTheOnlyOne) {
     const std::string hash(64, 'a');
     EXPECT_THAT(cloudsOfDensity(scene, ofUpload(hash), CloudReference("east")), ElementsAre(1));
     EXPECT_THAT(cloudsOfDensity(scene, ofUpload(hash), CloudReference(0U)), ElementsAre(0));
-    EXPECT_THAT(cloudsOfDensity(scene, ofFrame(3.0), std::nullopt), ElementsAre(1, 2)) << "all of files";
+    EXPECT_THAT(cloudsOfDensity(scene, ofFrame(3.0), std::nullopt), ElementsAre()) << "those that the file says";
     EXPECT_THAT(cloudsOfDensity(scene, ofFrame(3.0), CloudReference("west")), ElementsAre(2));
     const auto refused = [&](const scene::Scene& of, const NewDensity& density, std::optional<CloudReference> cloud) {
         return refusal([&] { cloudsOfDensity(of, density, cloud); });
     };
     EXPECT_EQ(refused(scene, ofUpload(hash), std::nullopt), "bad_request: cloud") << "which of three?";
     EXPECT_EQ(refused(scene, ofUpload(hash), CloudReference("north")), "not_found: cloud");
-    EXPECT_EQ(refused(scene, ofFrame(3.0), CloudReference(0U)), "bad_request: cloud");
     EXPECT_EQ(refused({}, ofUpload(hash), std::nullopt), "not_found: cloud");
-    EXPECT_EQ(refused({}, ofFrame(1.0), std::nullopt), "bad_request: frame");
     scene::Scene one;
     one.clouds.resize(1);
     EXPECT_THAT(cloudsOfDensity(one, ofUpload(hash), std::nullopt), ElementsAre(0));
@@ -91,6 +89,8 @@ vdb = "a_####.vdb"
 frames = [1, 1]
 extend = "clip"
 extinction = 0.25
+[[cloud]]
+procedural = "sphere"
 )";
         wish.shown = sourceScene(load, config, 1);
     }
@@ -103,15 +103,16 @@ extinction = 0.25
 
 TEST_F(DensitySource, AFrameIsWhatTheFileSaysOfIt) {
     ASSERT_EQ(wish.shown.scene.clouds[1].extinction, 0.0) << "it is not there yet";
-    wish.clouds = {0, 1};
-    wish.density = ofFrame(1.0);
+    wish.density = ofFrame(1.0);                   // of all clouds
     wish.shown.scene.clouds[0].extinction = 0.75;  // as an edit has left it
     SourcedScene found = source();
-    for (const scene::Cloud& cloud : found.scene.clouds) EXPECT_EQ(cloud.vdb.filename(), "a_0001.vdb");
+    for (const std::size_t i : {0U, 1U}) EXPECT_EQ(found.scene.clouds[i].vdb.filename(), "a_0001.vdb");
+    EXPECT_EQ(found.scene.clouds[2], wish.shown.scene.clouds[2]) << "a ball has no frames";
     EXPECT_EQ(found.scene.clouds[0].extinction, 0.75);
     EXPECT_EQ(found.scene.clouds[1].extinction, 0.25) << "now it is there";
     EXPECT_NE(found.key, wish.shown.key) << "nobody else sees it";
     const std::vector<CloudShown> shown = cloudsShown(found.scene, wish);
+    ASSERT_EQ(shown.size(), 2U);
     EXPECT_EQ(shown.at(1).name, "later");
     EXPECT_EQ(shown.at(1).file, 1.0);
     wish.shown = found;
@@ -119,16 +120,19 @@ TEST_F(DensitySource, AFrameIsWhatTheFileSaysOfIt) {
     EXPECT_EQ(source().scene.clouds[1].extinction, 0.0) << "and goes again";
     wish.density = ofFrame(2.0);
     EXPECT_EQ(refusal([&] { source(); }), "bad_request: frame") << "a file that is not there";
+    wish.density = ofFrame(1.0);
+    wish.clouds = {2};
+    EXPECT_EQ(refusal([&] { source(); }), "bad_request: cloud");
 }
 
 TEST_F(DensitySource, AnAddedCloudHasTheFramesOfTheOneThatItIsLike) {
     wish.shown.scene.clouds.push_back(wish.shown.scene.clouds[0]);
     wish.shown.scene.clouds.back().name = "added";
-    wish.clouds = {2};
+    wish.clouds = {3};
     wish.density = ofFrame(1.0);
-    EXPECT_EQ(source().scene.clouds[2].vdb.filename(), "a_0001.vdb");
+    EXPECT_EQ(source().scene.clouds[3].vdb.filename(), "a_0001.vdb");
     wish.shown.scene.clouds.back().moment.reset();
-    EXPECT_EQ(refusal([&] { source(); }), "not_found: cloud");
+    EXPECT_EQ(refusal([&] { source(); }), "bad_request: cloud");
 }
 
 TEST_F(DensitySource, AnUploadHasToBeHere) {
@@ -144,6 +148,9 @@ TEST_F(DensitySource, AnUploadHasToBeHere) {
     EXPECT_FALSE(found.clouds[0].moment);
     EXPECT_EQ(found.clouds[1], wish.shown.scene.clouds[1]);
     EXPECT_EQ(cloudsShown(found, wish).at(0).vdb, hash);
+    wish.shown.scene = found;
+    wish.density = ofFrame(1.0);
+    EXPECT_EQ(source().scene.clouds[0].vdb.filename(), "a_0001.vdb") << "frames come back";
 }
 
 /// Loaders and the render thread meet where no client sees a scene.

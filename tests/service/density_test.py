@@ -132,6 +132,7 @@ class Density(DensityTest):
         self.assertLess(abs(ours.mean() - numpy.mean(means)), 5 * error)
 
     def test_frames_of_a_sequence(self):
+        self.one.change(vdb=self.one.upload(self.other_file))  # from which the frames come back
         for frame, name in ((2, "c_0002.vdb"), (1.5, None), (0, "c_0000.vdb")):
             reply = self.one.change(frame=frame)
             self.assertEqual(reply["clouds"], [{"name": "c", "file": frame}])
@@ -199,7 +200,8 @@ class Faults(DensityTest):
 
     def test_nothing_changes_with_an_error(self):
         damaged, cut = (os.path.join(self.server.folder, name) for name in ("damaged.vdb", "cut.vdb"))
-        whole = open(self.other_file, "rb").read()
+        with open(self.other_file, "rb") as file:
+            whole = file.read()
         for name, data in ((damaged, b"no such file" * 1000), (cut, whole[:len(whole) // 2])):
             with open(name, "wb") as file:
                 file.write(data)
