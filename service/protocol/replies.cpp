@@ -107,6 +107,22 @@ Message messageOf(std::uint64_t id, const LightChanged&) {
     return {replyTo(MessageType::change), id, "{}", {}};
 }
 
+Message messageOf(std::uint64_t id, const DensityChanged& changed) {
+    json clouds = json::array();
+    for (const CloudShown& cloud : changed.clouds) {
+        json shown{{"name", cloud.name}};
+        if (!cloud.vdb.empty()) shown["vdb"] = "sha256:" + cloud.vdb;
+        if (cloud.file) shown["file"] = *cloud.file;
+        clouds.push_back(std::move(shown));
+    }
+    const json body{{"scene", bodyOf(changed.scene)},
+                    {"clouds", std::move(clouds)},
+                    {"carried", changed.carried},
+                    {"generations", changed.photons.generations},
+                    {"current_generations", changed.photons.current}};
+    return {replyTo(MessageType::change), id, body.dump(), {}};
+}
+
 Message messageOf(std::uint64_t id, const QueryAnswer& answer) {
     constexpr const char* names[] = {"segments", "sun", "ground_shadow", "ambient"};
     const json body{{"product", names[static_cast<std::size_t>(answer.product)]},

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "service/protocol/cloud_edit_fields.h"
+#include "service/protocol/density_fields.h"
 #include "service/protocol/frame_fields.h"
 #include "service/protocol/query_fields.h"
 
@@ -21,14 +22,6 @@ Hello readHello(JsonFields& fields) {
     if (version.value_or(protocolVersion) != protocolVersion)
         throw RequestError("unsupported_version", "only version 1 of the protocol is spoken here", "version");
     return {fields.text("token", longestName).value_or(""), fields.text("client", longestName).value_or("")};
-}
-
-std::string requireHash(const std::string& text, const char* where) {
-    auto digits = digitsOfHash(text);
-    if (!digits)
-        throw RequestError("bad_request",
-                           std::string(where) + " must be sha256: and 64 hexadecimal digits in lower case", where);
-    return *digits;
 }
 
 LoadScene readLoadScene(JsonFields& fields, const std::vector<std::byte>& payload) {
@@ -111,10 +104,14 @@ Change readChange(JsonFields& fields) {
     change.light = readLight(fields);
     change.light.move = fields.vector("move", -1e9, 1e9);
     change.edits = readCloudEdits(fields);
-    if (change.light.empty() && change.edits.empty())
-        throw RequestError("bad_request", "nothing to change: give sun, extinction, wind, move or clouds");
+    change.density = readDensity(fields);
+    if (change.light.empty() && change.edits.empty() && !change.density)
+        throw RequestError("bad_request", "nothing to change: give sun, extinction, wind, move, clouds, vdb or frame");
     change.cloud = fields.indexOrName("cloud", 65535, longestName);
-    if (change.cloud && !change.light.extinction && !change.light.move)
+    if (change.density && !(change.edits.empty() && change.light.empty()))
+        throw RequestError("bad_request", "another density goes by itself, without other changes",
+                           change.density->vdb.empty() ? "frame" : "vdb");
+    if (change.cloud && !change.density && !change.light.extinction && !change.light.move)
         throw RequestError("bad_request", "a cloud is named with an extinction for it or with a move", "cloud");
     if (!change.edits.empty() && (change.cloud || !change.light.empty()))
         throw RequestError("bad_request", "changes of clouds go by themselves, without sun, extinction, wind and move",
@@ -169,6 +166,14 @@ bool takesPayload(MessageType type) {
 }
 
 }  // namespace
+
+std::string requireHash(const std::string& text, const char* where) {
+    auto digits = digitsOfHash(text);
+    if (!digits)
+        throw RequestError("bad_request",
+                           std::string(where) + " must be sha256: and 64 hexadecimal digits in lower case", where);
+    return *digits;
+}
 
 std::optional<std::string> digitsOfHash(std::string_view text) {
     constexpr std::string_view prefix = "sha256:";

@@ -34,4 +34,7 @@ Request parseRequest(Message message, const RequestLimits& limits);
 /// text.
 std::optional<std::string> digitsOfHash(std::string_view text);
 
+/// The same of the field `where`. Errors: RequestError `bad_request` for another text.
+std::string requireHash(const std::string& text, const char* where);
+
 }  // namespace lumulus::service

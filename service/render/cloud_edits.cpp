@@ -115,4 +115,14 @@ EditedClouds editClouds(const scene::Scene& before, std::span<const CloudEdit> e
     return editor.take();
 }
 
+void placeAdded(scene::Scene& scene, const Renderer& renderer, std::span<const CloudOrigin> origins,
+                const scene::Scene& before, const Renderer& rendererBefore) {
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        if (!origins[i].added) continue;
+        const std::size_t from = origins[i].from;
+        scene.clouds[i].transform =
+            renderer.placementOf(i) * glm::inverse(rendererBefore.placementOf(from)) * before.clouds[from].transform;
+    }
+}
+
 }  // namespace lumulus::service

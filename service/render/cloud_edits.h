@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/cloud_origin.h"
+#include "render/renderer.h"
 #include "scene/scene.h"
 #include "service/values/requests.h"
 
@@ -24,5 +25,10 @@ struct EditedClouds {
 /// "clouds[1].like": `not_found` for a cloud that is not there (any more), `bad_request` for a name that another cloud
 /// has or a g for a phase function that has none, `too_large` for more clouds than a scene may have.
 EditedClouds editClouds(const scene::Scene& before, std::span<const CloudEdit> edits);
+
+/// Gives clouds that were added to `scene`, which comes from `before`, the places that they have in its renderer, so
+/// that it can be loaded again.
+void placeAdded(scene::Scene& scene, const Renderer& renderer, std::span<const CloudOrigin> origins,
+                const scene::Scene& before, const Renderer& rendererBefore);
 
 }  // namespace lumulus::service

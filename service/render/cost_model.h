@@ -39,6 +39,8 @@ class CostModel {
 
     /// Takes what a generation of photons cost.
     void traced(double milliseconds);
+    /// Of another density nobody knows what tracing costs.
+    void forgetTracing() { trace_ = {}; }
     /// Takes what `share` (0 to 1) of the texels of the sun's shadow volume cost.
     void lit(double milliseconds, double share);
     /// Takes what a frame cost.

@@ -47,7 +47,7 @@ void DefaultScene::load() {
     const auto start = Clock::now();
     try {
         const auto slot = std::make_shared<SceneSlot>(
-            source_.key, source_.scene, config_,
+            source_, config_,
             [this] {
                 if (abandoned_) throw Cancelled{};
             },

@@ -55,6 +55,7 @@ void FrameMaker::applyChanges() {
         costs = host_.encoding.takeCosts();
     }
     apply(changes);
+    host_.densities.work();
     for (const EncodingDesk::Cost& cost : costs)
         if (const SlotPointer slot = cost.slot.lock())
             slot->noteEncoded(cost.encoding, cost.report.milliseconds, cost.report.pixels);
@@ -71,12 +72,27 @@ void FrameMaker::apply(const std::vector<PendingChanges::Change>& changes) {
         }
         const std::lock_guard lock(host_.mutex);
         host_.changes.made(change);
-        if (!change.edits.empty()) host_.scenes.breakPromise(change.client);  // where it was of no use
+        const bool prepares = change.density && !failure;  // answered later
+        if (!prepares && (!change.edits.empty() || change.density))
+            host_.scenes.breakPromise(change.client);  // where it was of no use
+        if (prepares) continue;
         if (change.request)
             host_.reply(change.client, *change.request, failure ? Reply(*failure) : Reply(LightChanged{}));
         else if (failure)
             host_.lights.noteFailure(change.client, *failure);
     }
+}
+
+/// Lets a loader prepare another density. Errors: RequestError.
+void FrameMaker::prepare(const PendingChanges::Change& change, const SlotPointer& shown) {
+    const std::optional<CloudReference> cloud = change.named ? std::optional(change.reference) : std::nullopt;
+    const auto wish =
+        std::make_shared<const DensityWish>(DensityWish{{shown->scene(), shown->key(), shown->load()},
+                                                        *change.density,
+                                                        cloudsOfDensity(shown->scene(), *change.density, cloud)});
+    const std::lock_guard lock(host_.mutex);
+    if (host_.closing) throw RequestError(shuttingDown.code, shuttingDown.text);
+    host_.scenesToCome.prepare({change.client, *change.request, {}, {}, wish});
 }
 
 /// Errors: RequestError.
@@ -88,6 +104,7 @@ void FrameMaker::makeChange(const PendingChanges::Change& change) {
         shown = host_.scenes.shownTo(change.client);
     }
     if (!shown) throw RequestError("no_scene", "the scene is gone: load one");
+    if (change.density) return prepare(change, shown);
     if (change.edits.empty()) {  // of clouds that have changed just before
         std::optional<std::size_t> cloud;
         if (change.named) cloud = findCloud(shown->scene(), change.reference);
@@ -246,8 +263,8 @@ double FrameMaker::untilDue() {
     const auto now = Clock::now();
     const auto due = host_.scheduler.nextDue(now, [this](ClientId client) { return host_.scenes.revision(client); });
     constexpr double share = 0.8;  // steps do not take quite what they should
-    const double left = due ? share * std::chrono::duration<double>(*due - now).count() : SceneSlot::longRound;
-    return std::clamp(left, SceneSlot::shortRound, SceneSlot::longRound);
+    const double left = due ? share * std::chrono::duration<double>(*due - now).count() : WorkGuard::longStep;
+    return std::clamp(left, WorkGuard::shortStep, WorkGuard::longStep);
 }
 
 /// Makes the changes of light that can be made between two steps.
@@ -261,6 +278,7 @@ void FrameMaker::applyBetween() {
         });
     }
     apply(changes);
+    host_.densities.work();
 }
 
 /// Makes the next picture that is foreseen to take at most so many milliseconds. Returns whether there was one.
@@ -285,7 +303,7 @@ bool FrameMaker::makeOther(double limit) {
 double FrameMaker::interject(const SceneSlot& slot) {
     constexpr std::size_t deepest = 4;
     constexpr double leastWorked = 20.0;  // milliseconds of a picture before another comes within
-    if (busy_.empty() || busy_.back().slot != &slot || busy_.size() >= deepest) return SceneSlot::longRound;
+    if (busy_.empty() || busy_.back().slot != &slot || busy_.size() >= deepest) return WorkGuard::longStep;
     const auto begin = Clock::now();
     const Clock::duration othersBefore = others_;
     const std::size_t place = busy_.size() - 1;
@@ -314,7 +332,8 @@ void FrameMaker::putBack(const Job& job, const SlotPointer& slot) {
     bool kept = false;
     {
         const std::lock_guard lock(host_.mutex);
-        kept = host_.scenes.shownTo(job.client) == slot && host_.scheduler.putBack(job);
+        const SlotPointer shown = host_.scenes.shownTo(job.client);
+        kept = shown && shown->isOfSameScene(*slot) && host_.scheduler.putBack(job);
     }
     if (!kept) leaveOut(job);
 }

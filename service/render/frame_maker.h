@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "service/render/density_desk.h"
 #include "service/render/encoding_desk.h"
 #include "service/render/frame_task.h"
 #include "service/render/light_desk.h"
@@ -25,13 +26,14 @@ namespace lumulus::service {
 class FrameMaker {
   public:
     struct Host {
-        std::mutex& mutex;  ///< guards the next seven
+        std::mutex& mutex;  ///< guards the next eight
         Scheduler& scheduler;
         SceneStore& scenes;
         PendingChanges& changes;
         EncodingDesk& encoding;
         SceneDesk& scenesToCome;
         LightDesk& lights;
+        DensityDesk& densities;
         const bool& closing;
         /// Takes an answer that is no picture, with the lock held.
         std::function<void(ClientId, std::uint64_t id, Reply)> reply;
@@ -41,7 +43,7 @@ class FrameMaker {
 
     FrameMaker(Instruments& instruments, Host host);
 
-    /// Makes the changes that clients were promised, and learns what encoding cost.
+    /// Makes the changes that clients were promised, shows the densities that are ready, and learns what encoding cost.
     void applyChanges();
     /// Draws the picture and hands it over, or puts the job back after a generation.
     void make(const Job& job);
@@ -65,6 +67,7 @@ class FrameMaker {
     bool makeOther(double limit);
     void applyBetween();
     void apply(const std::vector<PendingChanges::Change>& changes);
+    void prepare(const PendingChanges::Change& change, const SlotPointer& shown);
     void makeChange(const PendingChanges::Change& change);
     void changeLight(ClientId client, const SlotPointer& slot, const LightChange& light,
                      std::optional<std::size_t> cloud);

@@ -51,8 +51,18 @@ std::optional<LoadQueue::Entry> LoadQueue::take(std::span<const Running> running
 }
 
 std::size_t LoadQueue::count(ClientId client) const {
-    return static_cast<std::size_t>(
-        std::ranges::count(entries_, client, [](const Entry& entry) { return entry.job.client; }));
+    return static_cast<std::size_t>(std::ranges::count_if(
+        entries_, [client](const Entry& entry) { return entry.job.client == client && !entry.job.density; }));
+}
+
+std::vector<LoadJob> LoadQueue::takeDensities(ClientId client) {
+    std::vector<LoadJob> taken;
+    std::erase_if(entries_, [&](Entry& entry) {
+        if (entry.job.client != client || !entry.job.density) return false;
+        taken.push_back(std::move(entry.job));
+        return true;
+    });
+    return taken;
 }
 
 void LoadQueue::removeClient(ClientId client) {

@@ -8,18 +8,20 @@
 #include <string>
 #include <vector>
 
+#include "service/render/density_source.h"
 #include "service/render/scene_source.h"
 #include "service/render/scheduler.h"
 #include "service/values/requests.h"
 
 namespace lumulus::service {
 
-/// A scene that a client asks for.
+/// A scene that a client asks for, or one that it sees with another density.
 struct LoadJob {
     ClientId client = 0;
     std::uint64_t id = 0;
     LoadScene load;
     std::shared_ptr<MemoryBudget::Share> memory = {};  ///< that the request holds
+    std::shared_ptr<const DensityWish> density = {};   ///< null: a scene
 };
 
 /// What loading a scene costs, in voxels: those of procedural clouds, and a voxel for each byte of a file.
@@ -52,8 +54,11 @@ class LoadQueue {
     /// waited for ten seconds goes before what is cheap. `held` is the key of a scene that nobody is to load.
     std::optional<Entry> take(std::span<const Running> running, const std::string& held, Clock::time_point now);
 
+    /// Scenes, without densities.
     std::size_t count(ClientId client) const;
     void removeClient(ClientId client);
+    /// Takes the densities that a client waits for.
+    std::vector<LoadJob> takeDensities(ClientId client);
     std::vector<LoadJob> takeAll();
 
   private:

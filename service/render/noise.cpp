@@ -51,4 +51,10 @@ std::optional<double> NoiseEstimate::relMse(std::uint64_t photons) const {
     return *relMseTimesPhotons_ / static_cast<double>(photons);
 }
 
+NoiseEstimate NoiseEstimate::withoutPicture() const {
+    NoiseEstimate result;
+    result.relMseTimesPhotons_ = relMseTimesPhotons_;
+    return result;
+}
+
 }  // namespace lumulus::service

@@ -22,6 +22,8 @@ class NoiseEstimate {
     void add(LayeredImage picture, int generations, std::uint64_t photons);
     /// Estimated relMSE of a picture that shows so many photons; none before it is known.
     std::optional<double> relMse(std::uint64_t photons) const;
+    /// What is known, for a scene of which there is no picture yet.
+    NoiseEstimate withoutPicture() const;
 
   private:
     struct Picture {

@@ -24,6 +24,7 @@ class PendingChanges {
         bool named = false;                      ///< whether one cloud is meant by `reference`
         CloudReference reference{};              ///< whose extinction or place changes
         std::optional<std::uint64_t> request{};  ///< that is answered when the change is made
+        std::optional<NewDensity> density{};     ///< that is prepared then; the answer comes when it is shown
     };
 
     void add(Change change) { changes_.push_back(std::move(change)); }

@@ -38,8 +38,10 @@ RenderService::RenderService(const RenderConfig& config, Instruments& instrument
       queries_(mutex_, outlets_.reply),
       ambient_(mutex_, scenes_, outlets_.reply),
       lights_(config, instruments, {mutex_, scenes_, [this](const SceneSlot& slot) { return step(slot); }}),
-      maker_(instruments, {mutex_, scheduler_, scenes_, changes_, encoding_, desk_, lights_, closing_, outlets_.reply,
-                           outlets_.encode}),
+      densities_(instruments, {mutex_, scenes_, outlets_.reply, [this] { wakeAll(); },
+                               [this](const SceneSlot& slot) { return step(slot); }}),
+      maker_(instruments, {mutex_, scheduler_, scenes_, changes_, encoding_, desk_, lights_, densities_, closing_,
+                           outlets_.reply, outlets_.encode}),
       desk_(config, instruments, deskHost()) {
     renderThread_ = std::thread([this] { renderLoop(); });
 }
@@ -49,15 +51,18 @@ SceneDesk::Host RenderService::deskHost() {
             scheduler_,
             scenes_,
             changes_,
+            densities_,
             outlets_.reply,
-            [this] {
-                // with the lock, or the one who looks for work or idleness could miss it
-                const std::lock_guard lock(mutex_);
-                idle_.notify_all();
-                wake_.notify_one();
-            },
+            [this] { wakeAll(); },
             outlets_.begun,
             [this](const SceneSlot& slot) { return step(slot); }};
+}
+
+void RenderService::wakeAll() {
+    // with the lock, or the one who looks for work or idleness could miss it
+    const std::lock_guard lock(mutex_);
+    idle_.notify_all();
+    wake_.notify_one();
 }
 
 /// On the render thread, between the steps of work on a scene. Returns the seconds of the next one.
@@ -92,6 +97,7 @@ void RenderService::removeClient(ClientId client) {
         ambient_.removeClient(client);
         scenes_.removeClient(client);
         desk_.removeClient(client);
+        densities_.removeClient(client);
         lights_.removeClient(client);
         metrics_.set(Metrics::streamsRunning, static_cast<std::int64_t>(scheduler_.streams()));
     }
@@ -122,12 +128,13 @@ void RenderService::answer(ClientId client, std::uint64_t id, Change change) {
     if (!slot && desk_.defaultPending())
         throw RequestError("busy", "the default scene is being loaded: try again later");
     if (!slot) throw RequestError("no_scene", "load a scene first");
-    if (!change.edits.empty() || changes_.editsOf(client)) {
-        if (!change.edits.empty()) scenes_.promiseOwn(client);
+    if (!change.edits.empty() || change.density || changes_.editsOf(client)) {
+        if (!change.edits.empty() || change.density) scenes_.promiseOwn(client);
         PendingChanges::Change later{client, slot, std::move(change.light), {}, true, std::move(change.edits)};
         later.named = change.cloud.has_value();
         later.reference = change.cloud.value_or(CloudReference{});
         later.request = id;
+        later.density = std::move(change.density);
         changes_.add(std::move(later));
         return;
     }
@@ -244,6 +251,7 @@ void RenderService::shutDown() {
     idle_.wait_for(lock, limit,
                    [this] { return !scheduler_.hasQueued() && !rendering_ && encoding_.empty() && !desk_.busy(); });
     for (LoadJob& current : desk_.takeCurrent()) loads.push_back(std::move(current));
+    for (LoadJob& ready : densities_.takeAll()) loads.push_back(std::move(ready));
     for (const std::vector<Job>& left : {scheduler_.takeQueued(), scheduler_.takeCurrent()})
         std::ranges::copy_if(left, std::back_inserter(failed), [](const Job& job) { return !job.stream; });
     const auto fails = [this](ClientId client, std::uint64_t id) {
@@ -272,7 +280,7 @@ void RenderService::renderLoop() {
             rendering_ = false;
             idle_.notify_all();
             if (stopping_) return;
-            if (changes_.any() || queries_.anyAsked())
+            if (changes_.any() || queries_.anyAsked() || densities_.any())
                 continue;  // a picture that was asked for after a change shows it
             const auto now = Clock::now();
             const auto revision = [this](ClientId client) { return scenes_.revision(client); };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "service/render/ambient_desk.h"
+#include "service/render/density_desk.h"
 #include "service/render/encoding_desk.h"
 #include "service/render/frame_maker.h"
 #include "service/render/frame_task.h"
@@ -87,6 +88,7 @@ class RenderService {
     void submitFrame(Job job);
     void handQueries();
     SceneDesk::Host deskHost();
+    void wakeAll();
 
     const RenderConfig& config_;
     Metrics& metrics_;
@@ -105,6 +107,7 @@ class RenderService {
     bool closing_ = false, stopping_ = false;
 
     LightDesk lights_;
+    DensityDesk densities_;
     FrameMaker maker_;  // for the render thread
     SceneDesk desk_;    // its threads take the service's lock
     std::thread renderThread_;

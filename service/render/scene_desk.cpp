@@ -52,7 +52,27 @@ void SceneDesk::loadDefaultAgain() {
 void SceneDesk::submit(LoadJob job) {
     const ClientId client = job.client;
     loader_.submit(std::move(job));
+    giveUpDensities(client);
     host_.scheduler.setWaiting(client, true);
+}
+
+/// Of a client who wants another one, or another scene.
+void SceneDesk::giveUpDensities(ClientId client) {
+    std::vector<LoadJob> jobs = loader_.takeDensities(client);
+    for (LoadJob& job : host_.densities.take(client)) jobs.push_back(std::move(job));
+    if (!jobs.empty()) host_.scenes.breakPromise(client);
+    for (const LoadJob& job : jobs)
+        host_.reply(client, job.id,
+                    Failure{"superseded", "a newer density or scene of the client takes its place", {}});
+}
+
+void SceneDesk::prepare(LoadJob job) {
+    const ClientId client = job.client;
+    if (!host_.scenes.knows(client)) return;  // it has left meanwhile
+    if (loader_.worksFor(client)) throw RequestError("busy", "a scene is being loaded for the client: wait for it");
+    giveUpDensities(client);
+    host_.scenes.promiseOwn(client);
+    loader_.submit(std::move(job));
 }
 
 void SceneDesk::addClient(ClientId client) {
@@ -90,6 +110,12 @@ SceneLoader::Host SceneDesk::loaderHost() {
     host.find = [this](const std::string& key) { return find(key); };
     host.keep = [this](const SlotPointer& slot) { keep(slot); };
     host.loaded = [this](const LoadJob& job, const SlotPointer& slot) { loaded(job, slot); };
+    host.before = [this](const LoadJob& job, const std::function<void()>& check) {
+        return host_.densities.before(job, check);
+    };
+    host.prepared = [this](const LoadJob& job, SlotPointer slot, DensityChanged changed) {
+        prepared(job, std::move(slot), std::move(changed));
+    };
     host.failed = [this](const LoadJob& job, const Failure& failure) { loadFailed(job, failure); };
     return host;
 }
@@ -101,13 +127,29 @@ DefaultScene::Host SceneDesk::defaultHost() {
     return host;
 }
 
-void SceneDesk::keep(const SlotPointer& slot) {
+/// Draws the memory of a scene from the budget. Errors: RequestError `busy`.
+void SceneDesk::makeRoomFor(const SlotPointer& slot) {
     while (!slot->holdMemory(instruments_.memory)) {
         SlotPointer unseen;  // ends after the lock, and gives its memory back
         const std::lock_guard lock(host_.mutex);
         unseen = host_.scenes.dropUnseen();
         if (!unseen) throw RequestError("busy", "there is no memory for another scene now: try again later");
     }
+}
+
+void SceneDesk::prepared(const LoadJob& job, SlotPointer slot, DensityChanged changed) {
+    makeRoomFor(slot);
+    {
+        const std::lock_guard lock(host_.mutex);
+        const std::optional<bool> waits = loader_.end(job);
+        if (!waits || !host_.scenes.knows(job.client)) return;  // nobody waits for it any more
+        host_.densities.add(job, std::move(slot), std::move(changed));
+    }
+    host_.ended();
+}
+
+void SceneDesk::keep(const SlotPointer& slot) {
+    makeRoomFor(slot);
     slot->onStep([step = host_.step, raw = slot.get()] { return step(*raw); });
     SlotPointer dropped;  // ends after the lock
     const std::lock_guard lock(host_.mutex);
@@ -173,6 +215,7 @@ void SceneDesk::loadFailed(const LoadJob& job, const Failure& failure) {
     {
         const std::lock_guard lock(host_.mutex);
         if (const std::optional<bool> waits = loader_.end(job)) {
+            if (job.density) host_.scenes.breakPromise(job.client);
             letWait(job.client, *waits);
             host_.reply(job.client, job.id, failure);
             answered = true;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "service/render/default_scene.h"
+#include "service/render/density_desk.h"
 #include "service/render/pending_changes.h"
 #include "service/render/scene_loader.h"
 #include "service/render/scene_store.h"
@@ -21,10 +22,11 @@ namespace lumulus::service {
 class SceneDesk {
   public:
     struct Host {
-        std::mutex& mutex;  ///< guards the next three
+        std::mutex& mutex;  ///< guards the next four
         Scheduler& scheduler;
         SceneStore& scenes;
         PendingChanges& changes;
+        DensityDesk& densities;
         /// Takes an answer, with the lock held.
         std::function<void(ClientId, std::uint64_t id, Reply)> reply;
         /// A load has ended, and clients may go on. Without the lock.
@@ -46,6 +48,9 @@ class SceneDesk {
 
     /// Errors: RequestError `busy` where the client waits for too many scenes.
     void submit(LoadJob job);
+    /// Prepares another density beside the pictures, and answers the job, in the place of one that the client waits
+    /// for. Errors: RequestError `busy` where the client waits for a scene.
+    void prepare(LoadJob job);
     /// Lets the client wait for the default scene, where that is loaded still.
     void addClient(ClientId client);
     void removeClient(ClientId client) { loader_.removeClient(client); }
@@ -74,6 +79,9 @@ class SceneDesk {
     void defaultFailed(const std::exception_ptr& error);
     void loaded(const LoadJob& job, const SlotPointer& slot);
     void loadFailed(const LoadJob& job, const Failure& failure);
+    void makeRoomFor(const SlotPointer& slot);
+    void prepared(const LoadJob& job, SlotPointer slot, DensityChanged changed);
+    void giveUpDensities(ClientId client);
     void letWait(ClientId client, bool loads);
     SceneDescription describe(const SlotPointer& slot) const;
 

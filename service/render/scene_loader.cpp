@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "service/render/density_source.h"
 #include "service/render/scene_source.h"
 #include "service/values/request_error.h"
 
@@ -42,7 +43,7 @@ void SceneLoader::stop() {
 void SceneLoader::submit(LoadJob job) {
     {
         const std::lock_guard lock(mutex_);
-        if (queue_.count(job.client) >= mostWaiting)
+        if (!job.density && queue_.count(job.client) >= mostWaiting)
             throw RequestError("busy", "four scenes wait to be loaded already");
         queue_.push(std::move(job), Clock::now());
     }
@@ -54,6 +55,17 @@ void SceneLoader::removeClient(ClientId client) {
     queue_.removeClient(client);
     for (Lane& lane : lanes_)
         if (lane.job && lane.job->client == client) lane.abandon = true;
+}
+
+std::vector<LoadJob> SceneLoader::takeDensities(ClientId client) {
+    const std::lock_guard lock(mutex_);
+    std::vector<LoadJob> taken = queue_.takeDensities(client);
+    for (Lane& lane : lanes_) {
+        if (!lane.job || lane.job->client != client || !lane.job->density) continue;
+        lane.abandon = true;
+        taken.push_back(*std::exchange(lane.job, std::nullopt));
+    }
+    return taken;
 }
 
 std::optional<bool> SceneLoader::end(const LoadJob& job) {
@@ -75,6 +87,13 @@ void SceneLoader::holdBack(std::string key) {
     wake_.notify_all();
 }
 
+/// What ends the work of a lane.
+std::function<void()> SceneLoader::stopFor(const Lane& lane) {
+    return [&lane] {
+        if (lane.abandon) throw Cancelled{};
+    };
+}
+
 const SceneLoader::Lane* SceneLoader::laneOf(ClientId client) const {
     const auto lane =
         std::ranges::find_if(lanes_, [&](const Lane& one) { return one.job && one.job->client == client; });
@@ -83,7 +102,9 @@ const SceneLoader::Lane* SceneLoader::laneOf(ClientId client) const {
 
 bool SceneLoader::worksFor(ClientId client) const {
     const std::lock_guard lock(mutex_);
-    return queue_.count(client) > 0 || laneOf(client) != nullptr;
+    return queue_.count(client) > 0 || std::ranges::any_of(lanes_, [client](const Lane& lane) {
+               return lane.job && lane.job->client == client && !lane.job->density;
+           });
 }
 
 bool SceneLoader::busy() const {
@@ -143,10 +164,12 @@ void SceneLoader::loop(Lane& lane) {
             wake_.wait(lock, [&] { return stopping_ || (!closed_ && (entry = begin(lane))); });
             if (!entry) return;
         }
-        if (entry->source)
-            load(lane, *entry);
-        else
+        if (!entry->source)
             findSource(lane, std::move(*entry));
+        else if (entry->job.density)
+            prepare(lane, *entry);
+        else
+            load(lane, *entry);
     }
 }
 
@@ -154,7 +177,9 @@ void SceneLoader::loop(Lane& lane) {
 void SceneLoader::findSource(Lane& lane, LoadQueue::Entry entry) {
     const LoadJob job = entry.job;
     answer(job, [&] {
-        entry.source = std::make_shared<const SourcedScene>(sourceScene(job.load, config_, job.client));
+        entry.source =
+            std::make_shared<const SourcedScene>(job.density ? sourceDensity(*job.density, config_, job.client, job.id)
+                                                             : sourceScene(job.load, config_, job.client));
         entry.cost = loadCost(entry.source->scene);
         const std::lock_guard lock(mutex_);
         if (lane.abandon || closed_) throw Cancelled{};
@@ -164,30 +189,53 @@ void SceneLoader::findSource(Lane& lane, LoadQueue::Entry entry) {
     });
 }
 
+SlotPointer SceneLoader::makeSlot(Lane& lane, const LoadQueue::Entry& entry) {
+    const SourcedScene& found = *entry.source;
+    instruments_.log.event("info", "scene_loading", {{"client", entry.job.client}, {"scene", found.scene.source}});
+    return std::make_shared<SceneSlot>(found, config_, stopFor(lane),
+                                       [&](std::string_view step) { noteStep(lane, step); });
+}
+
 SlotPointer SceneLoader::slotFor(Lane& lane, const LoadQueue::Entry& entry) {
     const auto start = Clock::now();
     const SourcedScene& found = *entry.source;
     const LoadJob& job = entry.job;
     if (SlotPointer held = host_.find(found.key)) return held;
-    instruments_.log.event("info", "scene_loading", {{"client", job.client}, {"scene", found.scene.source}});
-    const auto abandoned = [&lane] {
-        if (lane.abandon) throw Cancelled{};
-    };
-    auto slot = std::make_shared<SceneSlot>(found.key, found.scene, config_, abandoned,
-                                            [&](std::string_view step) { noteStep(lane, step); });
-    abandoned();  // the last step may not have asked: nobody keeps a scene that nobody waits for
+    SlotPointer slot = makeSlot(lane, entry);
+    stopFor(lane)();  // the last step may not have asked: nobody keeps a scene that nobody waits for
     if (job.load.isPrivate) slot->giveTo(job.client);
     host_.keep(slot);
+    noteLoaded(entry, start);
+    return slot;
+}
+
+void SceneLoader::noteLoaded(const LoadQueue::Entry& entry, Clock::time_point start) {
     instruments_.metrics.add(Metrics::scenesLoaded);
     instruments_.log.event("info", "scene_loaded",
-                           {{"client", job.client},
-                            {"scene", found.scene.source},
+                           {{"client", entry.job.client},
+                            {"scene", entry.source->scene.source},
                             {"seconds", std::chrono::duration<double>(Clock::now() - start).count()}});
-    return slot;
 }
 
 void SceneLoader::load(Lane& lane, const LoadQueue::Entry& entry) {
     answer(entry.job, [&] { host_.loaded(entry.job, slotFor(lane, entry)); });
+}
+
+/// Makes a scene with another density, and lets it go on with the light of the one that is shown meanwhile.
+void SceneLoader::prepare(Lane& lane, const LoadQueue::Entry& entry) {
+    const LoadJob& job = entry.job;
+    answer(job, [&] {
+        const auto start = Clock::now();
+        SlotPointer slot = makeSlot(lane, entry);
+        noteStep(lane, "waiting for the light of before");
+        const SceneBefore before = host_.before(job, stopFor(lane));
+        DensityChanged changed;
+        changed.carried = slot->goOnFrom(before, job.density->density.seconds);
+        changed.clouds = cloudsShown(entry.source->scene, *job.density);
+        stopFor(lane)();
+        noteLoaded(entry, start);
+        host_.prepared(job, std::move(slot), std::move(changed));
+    });
 }
 
 /// Does work for a job, and answers the job where that fails.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "service/render/load_queue.h"
+#include "service/render/scene_before.h"
 #include "service/render/scene_store.h"
 #include "service/telemetry/instruments.h"
 
@@ -26,6 +27,11 @@ class SceneLoader {
         std::function<void(const SlotPointer&)> keep;
         /// Takes the outcome. Has to call end(). Errors of `loaded`: RequestError, which goes to `failed`.
         std::function<void(const LoadJob&, const SlotPointer&)> loaded;
+        /// The scene that goes on as one with another density, when it is ready to. Calls `check` while it waits, and
+        /// throws what that throws. Errors: RequestError.
+        std::function<SceneBefore(const LoadJob&, const std::function<void()>& check)> before;
+        /// Takes a scene with another density, and whether it goes on with light, in the place of `loaded`.
+        std::function<void(const LoadJob&, SlotPointer, DensityChanged)> prepared;
         std::function<void(const LoadJob&, const Failure&)> failed;
     };
 
@@ -39,6 +45,8 @@ class SceneLoader {
     void submit(LoadJob job);
     /// Forgets what the client waits for; a load under way for it is given up.
     void removeClient(ClientId client);
+    /// Gives up the densities that a client waits for, and returns them: nobody answers them any more.
+    std::vector<LoadJob> takeDensities(ClientId client);
     /// Ends a load under way. Returns whether the client waits for another; none where somebody has answered it.
     std::optional<bool> end(const LoadJob& job);
     /// The scene of this key is being loaded elsewhere: nobody loads it here. Empty: there is none.
@@ -46,7 +54,7 @@ class SceneLoader {
     bool busy() const;
     /// How far the client's load is that is under way, or else the one that waits.
     std::optional<LoadState> state(ClientId client) const;
-    /// Whether a load of the client waits or is under way.
+    /// Whether a load of the client waits or is under way, densities apart.
     bool worksFor(ClientId client) const;
     /// Gives up the loads under way, refuses those to come, and returns those that waited.
     std::vector<LoadJob> close();
@@ -74,6 +82,10 @@ class SceneLoader {
     template <typename Work>
     void answer(const LoadJob& job, const Work& work);
     SlotPointer slotFor(Lane& lane, const LoadQueue::Entry& entry);
+    SlotPointer makeSlot(Lane& lane, const LoadQueue::Entry& entry);
+    void prepare(Lane& lane, const LoadQueue::Entry& entry);
+    void noteLoaded(const LoadQueue::Entry& entry, Clock::time_point start);
+    static std::function<void()> stopFor(const Lane& lane);
     void noteStep(Lane& lane, std::string_view step);
     const Lane* laneOf(ClientId client) const;
 

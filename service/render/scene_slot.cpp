@@ -13,6 +13,7 @@
 #include "service/render/describe_scene.h"
 #include "service/render/durations.h"
 #include "service/render/resample.h"
+#include "service/render/scene_before.h"
 #include "service/render/views.h"
 #include "service/values/request_error.h"
 
@@ -25,12 +26,19 @@ constexpr int probeWidth = 96;
 /// Part of a budget that a frame is planned to take: no frame costs quite what is foreseen.
 constexpr double aim = 0.9;
 
+std::string keyOf(const SceneSlot& source, ClientId owner) {
+    return fmt::format("{}, light of client {}", source.key(), owner);
+}
+
 }  // namespace
 
-SceneSlot::SceneSlot(std::string slotKey, const scene::Scene& scene, const RenderConfig& config,
-                     const std::function<void()>& abandoned, const std::function<void(std::string_view)>& begins)
-    : key_(std::move(slotKey)), scene_(scene), limits_(config.limits), abandoned_(abandoned), begins_(begins) {
-    deadline_ = Clock::now() + inSeconds(limits_.loadSeconds);
+SceneSlot::SceneSlot(const SourcedScene& found, const RenderConfig& config, const std::function<void()>& abandoned,
+                     const std::function<void(std::string_view)>& begins)
+    : key_(found.key),
+      load_(found.load),
+      scene_(found.scene),
+      limits_(config.limits),
+      guard_(limits_.loadSeconds, abandoned, begins) {
     RendererOptions loading = options();
     loading.device = config.device;
     renderer_ = std::make_unique<Renderer>(scene_, loading);
@@ -38,21 +46,20 @@ SceneSlot::SceneSlot(std::string slotKey, const scene::Scene& scene, const Rende
     light_.emplace(scene_, *renderer_);
     learnCosts();
     probeNoise();
-    deadline_ = Clock::time_point::max();
-    abandoned_ = {};
-    begins_ = {};
     lastTraced_ = Clock::now();
     description_ = describeScene(scene_, *renderer_, light_->now());
 }
 
 SceneSlot::SceneSlot(const std::shared_ptr<SceneSlot>& shown, ClientId owner, const EditedClouds* edited)
     : source_(shown->source_ ? shown->source_ : shown),
-      key_(fmt::format("{}, light of client {}", source_->key_, owner)),
+      key_(keyOf(*source_, owner)),
       owner_(owner),
+      load_(shown->load_),
       scene_(edited != nullptr ? edited->scene : source_->scene_),
       limits_(source_->limits_),
       renderer_(edited != nullptr ? std::make_unique<Renderer>(scene_, *shown->renderer_, edited->origins, options())
                                   : std::make_unique<Renderer>(scene_, *source_->renderer_, options())),
+      memory_(edited != nullptr ? shown->memory_ : source_->memory_),
       description_(source_->description_),
       costs_(source_->costs_),
       noise_(source_->noise_),
@@ -62,7 +69,40 @@ SceneSlot::SceneSlot(const std::shared_ptr<SceneSlot>& shown, ClientId owner, co
     description_.light = light_->now();
     if (edited != nullptr && shown->source_) shown->dropsGeneration_ = true;  // nobody will see it
     if (edited != nullptr) tracedAt_ = shown->tracedAt_;
-    source_->countMemory();
+    if (edited != nullptr) placeAdded(scene_, *renderer_, edited->origins, shown->scene_, *shown->renderer_);
+}
+
+SceneBefore SceneSlot::before() {
+    return {scene_, renderer_->changes(), renderer_->frameLight(scene_), noise_, costs_, seen_, seenReduction_, time_};
+}
+
+bool SceneSlot::goOnFrom(const SceneBefore& before, double seconds) {
+    guard_.begin("taking over the light");
+    renderer_->take(before.changes);
+    const bool goesOn = goOn(*renderer_, scene_, before, seconds, [this] { guard_.check(); });
+    if (goesOn) noise_ = before.noise.withoutPicture();
+    costs_ = before.costs;
+    costs_.forgetTracing();
+    if (wantsGeneration()) traceGeneration();
+    renderer_->setTime(time_ = before.time);
+    FrameResult picture;
+    drawViews(viewer(), before.views, before.reduction, picture);
+    viewer().of(before.reduction).viewed.drawn(before.views, renderer_->bounds(), before.time);
+    return goesOn;
+}
+
+void SceneSlot::takePlaceOf(const std::shared_ptr<SceneSlot>& shown, ClientId owner) {
+    if (renderer_->take(shown->renderer_->changes())) forgetViewed();
+    source_ = shown->source_ ? shown->source_ : shown;
+    owner_ = owner;
+    key_ = keyOf(*source_, owner);
+    revision_ = shown->revision_ + 1;
+    while (tracedAt_.size() < static_cast<std::size_t>(renderer_->generations().count) && !shown->tracedAt_.empty())
+        tracedAt_.push_front(shown->tracedAt_.front());
+    if (shown->source_) shown->dropsGeneration_ = true;  // nobody will see it
+    description_.originalSun = source_->description_.originalSun;
+    description_.originalClouds = source_->description_.originalClouds;
+    description_.light = light_->now();
 }
 
 scene::Scene SceneSlot::sceneNow() const {
@@ -75,57 +115,24 @@ scene::Scene SceneSlot::sceneNow() const {
 RendererOptions SceneSlot::options() {
     RendererOptions result;
     result.keepRing = true;
-    result.check = [this] { guard(); };
-    result.report = [this](std::string_view part, std::uint64_t, std::uint64_t) {
-        guard();
-        if (begins_) begins_(part);
-    };
+    result.check = [this] { guard_.check(); };
+    result.report = [this](std::string_view part, std::uint64_t, std::uint64_t) { guard_.begin(part); };
     return result;
 }
 
-SceneSlot::Guarded::Guarded(SceneSlot& slot, const std::atomic<bool>* cancelled)
-    : slot_(slot), cancelledBefore_(slot.cancelled_), deadlineBefore_(slot.deadline_) {
-    slot_.cancelled_ = cancelled;
-    slot_.drawer_ = std::this_thread::get_id();
-    slot_.deadline_ = Clock::now() + inSeconds(slot_.limits_.generationSeconds);
-}
-
-SceneSlot::Guarded::~Guarded() {
-    slot_.cancelled_ = cancelledBefore_;
-    slot_.deadline_ = deadlineBefore_;
-}
-
-void SceneSlot::guard() {
-    stopIfInterrupted();
-    if (abandoned_) abandoned_();
-    if (step_ && std::this_thread::get_id() == drawer_) {
-        const auto start = Clock::now();
-        const auto pausedBefore = paused_;
+void SceneSlot::onStep(const std::function<double()>& step) {
+    guard_.serve([this, step] {
         const double time = time_;
-        stepSeconds_ = step_();
+        const double seconds = step();
         renderer_->setTime(time_ = time);  // pictures within have their own
-        const auto pause = Clock::now() - start;
-        paused_ = pausedBefore + pause;  // whatever paused a picture of this scene within
-        if (deadline_ != Clock::time_point::max()) deadline_ += pause;
-    }
-    if (cancelled_ != nullptr && cancelled_->load()) throw Cancelled{};
-    if (Clock::now() > deadline_) throw TooSlow(drawing_ > 0);
+        return seconds;
+    });
 }
 
 bool SceneSlot::holdMemory(MemoryBudget& budget) {
     auto share = budget.take(MemoryBudget::scenes, heldBytes());
-    if (share) memory_ = std::move(*share);
+    if (share) *memory_ = std::move(*share);
     return share.has_value();
-}
-
-void SceneSlot::countMemory() {
-    if (source_) return source_->countMemory();  // one device has the memory of all lights of the scene
-    memory_.resize(heldBytes());
-}
-
-std::uint64_t SceneSlot::pictureBytes(std::uint64_t pixels) {
-    constexpr std::uint64_t layers = 12, bytesEncoded = 16;  // colour, cloud, transmittance, depths; floats of colour
-    return pixels * (layers * sizeof(float) + bytesEncoded);
 }
 
 std::uint64_t SceneSlot::frameBytes(const FrameRequest& frame) const {
@@ -147,19 +154,19 @@ void SceneSlot::apply(const LightChange& change, std::optional<std::size_t> clou
 
 void SceneSlot::traceGeneration() {
     const auto start = Clock::now();
-    const auto pausedBefore = paused_;
+    const auto pausedBefore = guard_.paused();
     const std::uint64_t lightBefore = revision_;
     dropsGeneration_ = false;
     {
-        const Guarded guarded(*this, nullptr);
+        const WorkGuard::Work work(guard_, nullptr, limits_.generationSeconds, false);
         const Counted tracing(tracing_);
         CutOff cutOff;
         cutOff.due = [this] { return dropsGeneration_; };
-        cutOff.roundSeconds = [this] { return stepSeconds_; };
+        cutOff.roundSeconds = [this] { return guard_.stepSeconds(); };
         if (!renderer_->traceGeneration(cutOff)) return;
     }
     if (revision_ == lightBefore) light_->prove();
-    costs_.traced(workedSince(start, pausedBefore));
+    costs_.traced(guard_.workedSince(start, pausedBefore));
     lastTraced_ = Clock::now();
     forgetViewed();
     tracedAt_.push_back(start);
@@ -202,11 +209,6 @@ double SceneSlot::allowSun(std::optional<double> milliseconds, double picture) {
     }
     renderer_->allowSunReduction(allowed);
     return missing ? costs_.sunMs(CostModel::sunShare(allowed)) : 0.0;
-}
-
-/// Milliseconds of work since `start`, without what went to others, of which there were `pausedBefore` then.
-double SceneSlot::workedSince(Clock::time_point start, Clock::duration pausedBefore) const {
-    return milliseconds(Clock::now() - start - (paused_ - pausedBefore));
 }
 
 View SceneSlot::smallView() const {
@@ -280,7 +282,7 @@ double SceneSlot::drawViews(Viewer& looking, const std::vector<View>& views, int
     double enlarging = 0.0;
     for (const View& view : views) {
         const auto start = Clock::now();
-        const auto pausedBefore = paused_;
+        const auto pausedBefore = guard_.paused();
         const View small = reduction > 1 ? reducedView(view, reduction) : view;
         ViewResult drawn{renderer_->draw(small, looking.of(reduction).state), 0, 0};
         drawn.drawnWidth = drawn.image.width;
@@ -288,7 +290,7 @@ double SceneSlot::drawViews(Viewer& looking, const std::vector<View>& views, int
         const auto whole = Clock::now();
         if (reduction > 1) drawn.image = enlarged(drawn.image, view, small);
         enlarging += millisecondsSince(whole);
-        result.drawMilliseconds += workedSince(start, pausedBefore);
+        result.drawMilliseconds += guard_.workedSince(start, pausedBefore);
         for (const PassTime& pass : renderer_->statistics().passes)
             if (pass.stage != Stage::photons) result.passes.push_back(pass);
         describePicture(drawn.image, scene_, *renderer_);
@@ -348,11 +350,13 @@ FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {
     double enlarging = 0.0;
     Viewer& looking = viewer();
     {
-        const Guarded guarded(*this, job.cancelled.get());
+        const WorkGuard::Work guarded(guard_, job.cancelled.get(), limits_.generationSeconds, true);
         const Counted drawing(drawing_);
         enlarging = drawViews(looking, views, result.reduction, result);
     }
     looking.of(result.reduction).viewed.drawn(views, renderer_->bounds(), frame.time);
+    seen_ = views;
+    seenReduction_ = result.reduction;
     countMemory();
     noteDrawn(result, CostModel::reduced(work, result.reduction, pixels), enlarging);
 
@@ -367,10 +371,10 @@ FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {
 std::vector<glm::dvec3> SceneSlot::ambientAt(const glm::dvec3& point, const std::atomic<bool>* cancelled) {
     if (scene_.ground && point.y < scene_.ground->height)
         throw InputError("the point is below the ground", "y", "raise it");
-    const Guarded guarded(*this, cancelled);
+    const WorkGuard::Work guarded(guard_, cancelled, limits_.generationSeconds, true);
     const Counted drawing(drawing_);
     ViewState looking;
-    std::vector<glm::dvec3> values{sunIrradianceAt(*renderer_, renderer_->media(), point, [this] { guard(); })};
+    std::vector<glm::dvec3> values{sunIrradianceAt(*renderer_, renderer_->media(), point, [this] { guard_.check(); })};
     std::ranges::copy(lumulus::ambientAt(*renderer_, looking, point).coefficients, std::back_inserter(values));
     return values;
 }
@@ -386,7 +390,7 @@ CompositeResult SceneSlot::composite(const Job& job, const Composite& composite)
     const View view = viewsOf({request}).front();
     LayeredImage picture;
     std::vector<float> depth = readPixels(composite, picture);
-    const Guarded guarded(*this, job.cancelled.get());
+    const WorkGuard::Work guarded(guard_, job.cancelled.get(), limits_.generationSeconds, true);
     const Counted drawing(drawing_);
     result.image = renderer_->throughFog(view, std::move(picture), std::move(depth));
     result.tone = scene::toneOf(scene_.image, std::array<const LayeredImage*, 1>{&result.image});

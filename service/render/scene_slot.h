@@ -8,9 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "render/renderer.h"
@@ -21,29 +19,16 @@
 #include "service/render/light_state.h"
 #include "service/render/noise.h"
 #include "service/render/render_config.h"
+#include "service/render/scene_source.h"
 #include "service/render/scheduler.h"
 #include "service/render/viewed_light.h"
+#include "service/render/work_guard.h"
 #include "service/telemetry/memory_budget.h"
 #include "service/values/results.h"
 
 namespace lumulus::service {
 
-/// Thrown where nobody waits any more for the work at hand.
-struct Cancelled {};
-
-/// Thrown where a generation of photons takes longer than the limits allow, so that the scene is of no use under this
-/// light, or a picture, which then asks for too much.
-class TooSlow : public std::runtime_error {
-  public:
-    explicit TooSlow(bool ofPicture)
-        : std::runtime_error(ofPicture ? "the picture takes longer than the limits of the service allow"
-                                       : "the scene takes longer than the limits of the service allow"),
-          ofPicture_(ofPicture) {}
-    bool ofPicture() const { return ofPicture_; }
-
-  private:
-    bool ofPicture_;
-};
+struct SceneBefore;
 
 /// A scene that is served: its renderer, and what its work costs. The renderer owns light, extinction and wind; the
 /// scene as it was loaded never changes. Not for several threads, but for key(), owner(), source(),
@@ -53,8 +38,8 @@ class SceneSlot {
     /// Loads and prepares the scene, and draws a small picture, so that shaders are compiled and costs known.
     /// `abandoned` is called between the steps; what it throws ends the load. `begins` is told which step begins. Both
     /// may be empty. Errors: InputError, Error, TooSlow.
-    SceneSlot(std::string slotKey, const scene::Scene& scene, const RenderConfig& config,
-              const std::function<void()>& abandoned, const std::function<void(std::string_view)>& begins = {});
+    SceneSlot(const SourcedScene& found, const RenderConfig& config, const std::function<void()>& abandoned,
+              const std::function<void(std::string_view)>& begins = {});
 
     /// The scene of another slot with light of its own for a client: as the scene has it, and no photons yet. Density,
     /// device and programs are shared, so that nothing is loaded and one thread has to use both. With clouds that are
@@ -69,8 +54,15 @@ class SceneSlot {
     void giveTo(ClientId client) { owner_ = client; }
     /// Whose density is shared; null where the scene was loaded.
     const std::shared_ptr<SceneSlot>& source() const { return source_; }
-    /// The scene as it was loaded.
+    /// Whether another slot shows the same scene, if under another light or with other clouds.
+    bool isOfSameScene(const SceneSlot& other) const {
+        const SceneSlot *own = source_ ? source_.get() : this, *its = other.source_ ? other.source_.get() : &other;
+        return own == its;
+    }
+    /// The scene as it was loaded; where clouds were edited, as they were then.
     const scene::Scene& scene() const { return scene_; }
+    /// What asked for it, with the text that a name stands for.
+    const std::shared_ptr<const LoadScene>& load() const { return load_; }
     /// The scene as it was when it was loaded.
     const SceneDescription& description() const { return description_; }
     SceneState state() const;
@@ -99,8 +91,6 @@ class SceneSlot {
         constexpr double longest = 150.0;  // ms
         return costs_.traceMs() > 0.0 && costs_.traceMs() <= longest && !light_->costUnknown();
     }
-    /// Seconds of the steps of a generation, if pictures are due before it ends. They can be made between two.
-    static constexpr double shortRound = 0.004, longRound = 0.02;
     /// Whether work on the scene is at a step at which a picture of it can be made: also within one other, unless a
     /// filter sees all of that. Light can be changed within none, and a generation traced within no other.
     bool canDraw() const { return drawing_ == 0 || (drawing_ < viewers_.size() && scene_.fog.media.empty()); }
@@ -132,6 +122,16 @@ class SceneSlot {
         costs_.encoded(encoding, milliseconds, pixels);
     }
 
+    /// What a scene with another density goes on with. When canChange().
+    SceneBefore before();
+    /// Goes on with another scene's light, which is shown while this one is loaded, along the motion that goOn() tells
+    /// of, traces a generation, so that it is known what that takes, and draws what was drawn there. Returns whether
+    /// there was light to go on with. While it is loaded. Errors: those of goOn(), of traceGeneration() and of draw().
+    bool goOnFrom(const SceneBefore& before, double seconds);
+    /// Is shown to a client in the place of `shown`, whose scene it is but for the density, under the light that has
+    /// changed meanwhile: light of its own that goes back to the same scene. Errors: InputError.
+    void takePlaceOf(const std::shared_ptr<SceneSlot>& shown, ClientId owner);
+
     /// Draws what the scene holds from the budget, and keeps that in step from now on. Returns false where the budget
     /// does not have it. Before the scene is held.
     bool holdMemory(MemoryBudget& budget);
@@ -140,25 +140,15 @@ class SceneSlot {
     /// Bytes that the pictures of a frame take until they are encoded.
     std::uint64_t frameBytes(const FrameRequest& frame) const;
     /// The same of a picture of so many pixels.
-    static std::uint64_t pictureBytes(std::uint64_t pixels);
+    static std::uint64_t pictureBytes(std::uint64_t pixels) {
+        constexpr std::uint64_t layers = 12, encoded = 16;  // colour, cloud, transmittance, depths; floats of colour
+        return pixels * (layers * sizeof(float) + encoded);
+    }
     /// `step` is called between the steps of all work from now on, and returns the seconds that the next one should
     /// take: on the thread that draws, never on those that help it. Before the scene is held.
-    void onStep(std::function<double()> step) { step_ = std::move(step); }
+    void onStep(const std::function<double()>& step);
 
   private:
-    /// While it lives, work for a job ends where the job is cancelled or takes too long.
-    class Guarded {
-      public:
-        Guarded(SceneSlot& slot, const std::atomic<bool>* cancelled);
-        Guarded(const Guarded&) = delete;
-        Guarded& operator=(const Guarded&) = delete;
-        ~Guarded();
-
-      private:
-        SceneSlot& slot_;
-        const std::atomic<bool>* cancelledBefore_;
-        Clock::time_point deadlineBefore_;
-    };
     /// Counts work of a kind while it lives.
     class Counted {
       public:
@@ -188,14 +178,12 @@ class SceneSlot {
     }
 
     RendererOptions options();
-    double workedSince(Clock::time_point start, Clock::duration pausedBefore) const;
-    void countMemory();
+    void countMemory() { memory_->resize(heldBytes()); }
     std::vector<View> viewsOf(const std::vector<ViewRequest>& requests) const;
     CostModel::Work workFor(const std::vector<View>& views, double time) const;
     View smallView() const;
     void learnCosts();
     void probeNoise();
-    void guard();
     double sharpenShare() const;
     double allowSun(std::optional<double> milliseconds, double picture);
     double drawViews(Viewer& viewer, const std::vector<View>& views, int reduction, FrameResult& result);
@@ -212,23 +200,19 @@ class SceneSlot {
     std::shared_ptr<SceneSlot> source_;
     std::string key_;
     std::optional<ClientId> owner_;
+    std::shared_ptr<const LoadScene> load_;
     scene::Scene scene_;  ///< the sun is the map's where it has one; never changes after the load
     const RenderLimits& limits_;
-    std::function<void()> abandoned_;
-    std::function<double()> step_;
-    std::thread::id drawer_;                        ///< the thread that does the work of jobs
-    std::function<void(std::string_view)> begins_;  // a step of the load
-    const std::atomic<bool>* cancelled_ = nullptr;  // of the job that is drawn
-    Clock::time_point deadline_ = Clock::time_point::max();
-    Clock::duration paused_{};  ///< in step_, which may work for others
-    double stepSeconds_ = longRound;
+    WorkGuard guard_;
     std::size_t tracing_ = 0, drawing_ = 0;
     bool dropsGeneration_ = false;  ///< that is traced
     std::unique_ptr<Renderer> renderer_;
-    std::array<Viewer, 2> viewers_;    ///< the second one of pictures that come within another
+    std::array<Viewer, 2> viewers_;  ///< the second one of pictures that come within another
+    std::vector<View> seen_;         ///< that were drawn last
+    int seenReduction_ = 1;
     double time_ = 0.0;                ///< of the wind, of the picture that is drawn [s]
     std::optional<LightState> light_;  ///< of the renderer
-    MemoryBudget::Share memory_;
+    std::shared_ptr<MemoryBudget::Share> memory_ = std::make_shared<MemoryBudget::Share>();  ///< of the whole device
     SceneDescription description_;
     CostModel costs_;
     NoiseEstimate noise_;

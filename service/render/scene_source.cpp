@@ -53,31 +53,41 @@ void applyLimits(scene::Scene& scene, const RenderLimits& limits) {
                          "image.width", "make it smaller");
 }
 
+fs::path uploadedFile(const std::string& hash, const RenderConfig& config) {
+    const fs::path upload = config.uploads / (hash + ".vdb");
+    std::error_code ec;
+    if (!fs::is_regular_file(upload, ec))
+        throw RequestError("not_found", "no such upload is here: send it first", "vdb");
+    fs::last_write_time(upload, fs::file_time_type::clock::now(), ec);  // it is used, and does not expire
+    return fs::absolute(upload);
+}
+
+scene::Scene sceneAt(const LoadScene& load, const RenderConfig& config, double frame) {
+    std::vector<std::string> overrides = load.overrides;
+    if (!load.vdb.empty()) overrides.push_back("cloud.0.vdb=\"" + uploadedFile(load.vdb, config).string() + "\"");
+    const std::string name = load.name.empty() ? "inline" : load.name;
+    const std::array<fs::path, 2> folders{config.scenes, config.uploads};
+    scene::Scene scene =
+        scene::parseScene(load.toml, (config.scenes / name).string(), overrides, load.quality, folders, frame);
+    scene.source = name;
+    applyLimits(scene, config.limits);
+    return placeClouds(std::move(scene));
+}
+
 SourcedScene sourceScene(const LoadScene& load, const RenderConfig& config, std::uint64_t owner) {
     if (load.name.find('\0') != std::string::npos)
         throw RequestError("not_found", "there is no scene of this name", "name");
     try {
-        const std::string text = textOf(load, config);
-        std::vector<std::string> overrides = load.overrides;
-        if (!load.vdb.empty()) {
-            const fs::path upload = config.uploads / (load.vdb + ".vdb");
-            std::error_code ec;
-            if (!fs::is_regular_file(upload, ec))
-                throw RequestError("not_found", "no such upload is here: send it first", "vdb");
-            fs::last_write_time(upload, fs::file_time_type::clock::now(), ec);  // it is used, and does not expire
-            overrides.push_back("cloud.0.vdb=\"" + fs::absolute(upload).string() + "\"");
-        }
-        const std::string name = load.name.empty() ? "inline" : load.name;
-        const std::array<fs::path, 2> folders{config.scenes, config.uploads};
+        LoadScene read = load;
+        read.toml = textOf(load, config);
         SourcedScene found;
-        found.scene = scene::parseScene(text, (config.scenes / name).string(), overrides, load.quality, folders);
-        found.scene.source = name;
-        applyLimits(found.scene, config.limits);
-        found.scene = placeClouds(std::move(found.scene));
-        std::string key = text + '\0' + (load.quality ? std::to_string(static_cast<int>(*load.quality)) : "");
-        for (const std::string& one : overrides) key += '\0' + one;
+        found.scene = sceneAt(read, config, 0.0);
+        std::string key = read.toml + '\0' + (load.quality ? std::to_string(static_cast<int>(*load.quality)) : "");
+        for (const std::string& one : load.overrides) key += '\0' + one;
+        if (!load.vdb.empty()) key += std::string(1, '\0') + "vdb " + load.vdb;
         if (load.isPrivate) key += std::string(1, '\0') + "private " + std::to_string(owner);
         found.key = sha256Hex(std::as_bytes(std::span(key)));
+        found.load = std::make_shared<const LoadScene>(std::move(read));
         return found;
     } catch (const InputError& e) {
         throw RequestError("bad_request", e.what());

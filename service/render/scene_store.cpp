@@ -174,7 +174,7 @@ SlotPointer SceneStore::toRefine(Clock::time_point now, std::optional<Clock::tim
     for (const auto& [client, slot] : own_)
         if (slot) consider(slot);
     if (!best || !due || starves(*best, now)) return best;
-    const double step = best->wantsSun() ? best->sharpenMs() : std::min(best->traceMs(), 1e3 * SceneSlot::shortRound);
+    const double step = best->wantsSun() ? best->sharpenMs() : std::min(best->traceMs(), 1e3 * WorkGuard::shortStep);
     return now + std::chrono::duration<double, std::milli>(step) < std::max(*due, now) ? best : nullptr;
 }
 

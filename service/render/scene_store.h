@@ -41,6 +41,8 @@ class SceneStore {
     SlotPointer ownOf(ClientId client, const SlotPointer& source) const;
     /// Takes the light that was promised to its owner, who sees it from now on.
     void keepOwn(const SlotPointer& slot);
+    /// Nobody sees this any more.
+    void retire(SlotPointer slot) { retired_.push_back(std::move(slot)); }
     /// Lights that nobody sees any more. Let them end on the thread that uses scenes, without the lock.
     std::vector<SlotPointer> takeRetired() { return std::exchange(retired_, {}); }
 

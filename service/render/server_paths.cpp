@@ -65,6 +65,8 @@ void ServerPaths::hide(Reply& reply) const {
         failure->where = hidden(std::move(failure->where));
     } else if (auto* scene = std::get_if<SceneDescription>(&reply)) {
         for (std::string& warning : scene->warnings) warning = hidden(std::move(warning));
+    } else if (auto* density = std::get_if<DensityChanged>(&reply)) {
+        for (std::string& warning : density->scene.warnings) warning = hidden(std::move(warning));
     }
 }
 

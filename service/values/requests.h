@@ -143,10 +143,19 @@ struct CloudEdit {
     double scale = 1.0;                ///< of one that is added
 };
 
+/// Another density for a cloud of the scene, or for all clouds that show files of a sequence.
+struct NewDensity {
+    std::string vdb;              ///< SHA-256 (64 hexadecimal digits) of an upload; empty: `frame`
+    std::string grid;             ///< of the file; empty: as the scene has it
+    std::optional<double> frame;  ///< of the scene, whose file the cloud shows
+    double seconds = 0.0;         ///< by which an upload is later than what is shown; 0: nothing is known of motion
+};
+
 struct Change {
     LightChange light;
     std::optional<CloudReference> cloud;  ///< whose extinction changes; absent: all clouds
     std::vector<CloudEdit> edits;         ///< one after the other; all of them or none
+    std::optional<NewDensity> density;    ///< of `cloud`
 };
 
 enum class QueryProduct { segments, sun, groundShadow, ambient };

@@ -126,6 +126,21 @@ struct FrameCancelled {
 
 struct LightChanged {};
 
+/// What of a file a cloud shows.
+struct CloudShown {
+    std::string name;
+    std::string vdb;             ///< SHA-256 of the upload; empty: `file`
+    std::optional<double> file;  ///< number of a sequence's file, with a fraction between two
+};
+
+/// Another density is shown.
+struct DensityChanged {
+    SceneDescription scene;
+    std::vector<CloudShown> clouds;  ///< that have another density now
+    PhotonState photons;
+    bool carried = false;  ///< whether the light of before goes on
+};
+
 /// What a query has found: rows of `width` numbers of `channels` values each.
 struct QueryAnswer {
     QueryProduct product = QueryProduct::segments;
@@ -139,6 +154,7 @@ struct Failure {
     std::string code, text, where;  ///< as in RequestError
 };
 
-using Reply = std::variant<SceneDescription, StreamStopped, FrameCancelled, LightChanged, QueryAnswer, Failure>;
+using Reply =
+    std::variant<SceneDescription, StreamStopped, FrameCancelled, LightChanged, DensityChanged, QueryAnswer, Failure>;
 
 }  // namespace lumulus::service

@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "service/values/sha256.h"
-#include "volume/motion.h"
 
 namespace lumulus::job {
 
@@ -95,19 +94,13 @@ void FrameRenderer::make(const scene::Scene& scene, std::int64_t number, const s
 void FrameRenderer::carry(const scene::Scene& before, const scene::Scene& now) {
     constexpr int unknown = 4;  // frames, where the motion is not known
     if (before.clouds.size() != now.clouds.size()) return;
-    const vdb::ReadLimits limits{options_.check};
-    std::vector<photon::Way> ways(now.clouds.size());
-    int frames = scene::mostFrames(now.photonMap);
-    for (const photon::CarriedCloud& cloud : light_->plan.clouds) {
-        const std::size_t i = cloud.number;
-        CloudMotion motion = motionBetween(before.clouds[i], now.clouds[i], {cloud.toCloud, cloud.size}, limits);
-        if (!motion.goesOn) return;
-        if (!motion.known && now.photonMap.transferFrames == 0) frames = unknown;
-        ways[i] = std::move(motion.way);
-    }
+    const FrameMotion motion = motionOf(*light_, before, now, vdb::ReadLimits{options_.check});
+    if (!motion.goesOn) return;
+    const bool few = !motion.known && now.photonMap.transferFrames == 0;
+    const int frames = few ? unknown : scene::mostFrames(now.photonMap);
     const double framesBefore = light_->plan.generations / before.photonMap.generations;
     const int more = std::min(frames, static_cast<int>(std::lround(framesBefore)) + 1) - 1;
-    renderer_->carryOn(now, *light_, ways, more * now.photonMap.generations);
+    renderer_->carryOn(now, *light_, motion.ways, more * now.photonMap.generations);
 }
 
 Renderer& FrameRenderer::of(const scene::Scene& scene, std::int64_t number, const scene::Scene* next) {

@@ -65,6 +65,23 @@ void setOffset(World& world, const glm::dvec3& offset, std::optional<std::size_t
     placeInstances(world);
 }
 
+SceneChanges changesOf(const World& world, const std::map<std::size_t, glm::dvec3>& moved) {
+    SceneChanges changes{world.lights.sun, {}, world.wind, moved};
+    for (const cloud::Instance& instance : world.instances) changes.extinctions.push_back(instance.sceneExtinction);
+    return changes;
+}
+
+bool takeLight(World& world, const SceneChanges& changes) {
+    const scene::Sun& sun = world.lights.sun;
+    bool changed = false;
+    if (changes.sun.directionTo != sun.directionTo || changes.sun.irradiance != sun.irradiance)
+        changed = setSun(world, changes.sun.directionTo, changes.sun.irradiance);
+    for (std::size_t i = 0; i < changes.extinctions.size(); ++i)
+        if (world.instances.at(i).asset != nullptr && changes.extinctions[i] > 0.0)
+            changed = setExtinction(world, changes.extinctions[i], i) || changed;
+    return changed;
+}
+
 int shadowReduction(const World& world) {
     int largest = 1;
     for (const light::InstanceLight& light : world.light) {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
 #include <string_view>
 
 #include "render/gpu_work.h"
+#include "render/scene_changes.h"
 #include "render/world.h"
 
 /// What changes while a world lives. All owners of what changes are in the world.
@@ -20,6 +22,12 @@ bool setSun(World& world, const glm::dvec3& directionTo, const glm::dvec3& irrad
 bool setExtinction(World& world, double extinction, std::optional<std::size_t> cloud);
 /// Moves a cloud, or all, from where the scene has them [m].
 void setOffset(World& world, const glm::dvec3& offset, std::optional<std::size_t> cloud);
+
+/// `moved`: ways of clouds that do not lie where the scene has them [m].
+SceneChanges changesOf(const World& world, const std::map<std::size_t, glm::dvec3>& moved);
+/// Sun and extinctions of another world of as many clouds; those of clouds in which there is nothing stay. Returns
+/// whether anything changed. Errors: those of setSun().
+bool takeLight(World& world, const SceneChanges& changes);
 
 /// Coarseness of the shadow volumes that are shown: the largest reduction; 1: all are whole, 0: one has to be made.
 int shadowReduction(const World& world);

@@ -12,9 +12,9 @@
 #include "render/changes.h"
 #include "render/frame_light.h"
 #include "render/light_fingerprint.h"
-#include "render/pass_stage.h"
 #include "render/picture.h"
 #include "render/renderer_state.h"
+#include "render/renderer_statistics.h"
 #include "render/world_media.h"
 #include "scene/fog_bounds.h"
 
@@ -35,28 +35,6 @@ const scene::Scene& drawable(const scene::Scene& scene) {
                          "leave it out (the map has its own), or use lumulus reference");
     }
     return scene;
-}
-
-void addTimes(Statistics& statistics, const std::vector<gpu::PassTime>& times) {
-    for (const gpu::PassTime& pass : times) {
-        const auto known = std::ranges::find(statistics.passes, pass.name, &PassTime::name);
-        if (known == statistics.passes.end())
-            statistics.passes.push_back({pass.name, pass.milliseconds, stageOf(pass.name)});
-        else
-            known->milliseconds += pass.milliseconds;
-    }
-}
-
-void addCounters(Statistics& statistics, const photon::PhotonMap& photons) {
-    const photon::Counters& c = photons.counters();
-    statistics.photons += c.emitted;
-    statistics.generations = static_cast<std::uint64_t>(photons.generationsInRing());
-    statistics.events += c.events;
-    statistics.nullCollisions += c.nulls;
-    statistics.absorbed += c.absorbed;
-    statistics.escaped += c.escaped;
-    statistics.lost += c.lost;
-    statistics.saturated += c.saturated;
 }
 
 }  // namespace
@@ -174,6 +152,10 @@ std::optional<FrameLight> Renderer::frameLight(const scene::Scene& scene) {
 bool Renderer::carryOn(const scene::Scene& scene, const FrameLight& before, std::span<const photon::Way> ways,
                        int generations) {
     return carryLight(state_->context, *state_->world, scene, before, ways, generations);
+}
+
+bool Renderer::goOnFrom(const scene::Scene& scene, const FrameLight& before, std::span<const photon::Way> ways) {
+    return carryRing(state_->context, *state_->world, scene, before, ways, state_->check);
 }
 
 std::string Renderer::lightFingerprint(const scene::Scene& scene) {
@@ -369,19 +351,32 @@ bool Renderer::moveCloud(const glm::dvec3& way, std::size_t cloud) {
     return true;
 }
 
+SceneChanges Renderer::changes() const {
+    return changesOf(*state_->world, state_->moved);
+}
+
+bool Renderer::take(const SceneChanges& changes) {
+    bool changed = setWind(changes.wind);
+    for (const auto& [cloud, way] : changes.moved) changed = moveCloud(way, cloud) || changed;
+    const bool light = takeLight(*state_->world, changes);
+    if (light) state_->lightChanged();
+    return changed || light;
+}
+
+glm::dmat4 Renderer::placementOf(std::size_t cloud) const {
+    const cloud::Instance& instance = state_->world->instances.at(cloud);
+    glm::dmat4 place(instance.voxelToMetres);
+    place[3] = glm::dvec4(instance.origin, 1.0);
+    return place;
+}
+
 query::Media Renderer::media() {
     return mediaOf(state_->context, *state_->world, stopIfInterrupted);
 }
 
 Statistics Renderer::statistics() const {
-    Statistics result = state_->statistics;
-    if (state_->world->photons) addCounters(result, *state_->world->photons);
-    if (result.lost > 0)
-        result.warnings.push_back(std::to_string(result.lost) + " of " + std::to_string(result.photons) +
-                                  " photons scattered too often and were given up: their light is missing");
-    if (result.saturated > 0)
-        result.warnings.push_back(std::to_string(result.saturated) +
-                                  " coefficients met the limit of their integers: the picture is too dark there");
+    const auto& photons = state_->world->photons;
+    Statistics result = finished(state_->statistics, photons ? &*photons : nullptr);
     result.validationMessages = state_->context.validationMessages();
     return result;
 }

@@ -16,6 +16,7 @@
 #include "base/progress.h"
 #include "query/media.h"
 #include "render/cloud_origin.h"
+#include "render/scene_changes.h"
 #include "scene/scene.h"
 #include "view/view.h"
 #include "volume/summary.h"
@@ -143,14 +144,19 @@ class Renderer {
     /// Goes on with generations that were traced elsewhere for a scene of the same lightFingerprint(), before the first
     /// one. Not with `keepRing`. Errors: InputError where they cannot be of this scene.
     void goOnFrom(const photon::TracedSums& sums);
-    /// Light of all photons so far, for the frame behind that of this scene; none where no photon is of use. Not with
-    /// `keepRing`.
+    /// Light of all photons so far, or of those in the ring, for the frame behind that of this scene; none where no
+    /// photon is of use.
     std::optional<FrameLight> frameLight(const scene::Scene& scene);
     /// Adds the light of the frame before to what was traced, as so many generations more (render/frame_light.h):
     /// `ways` that what is in the clouds of the scene has come. Returns whether there was any to add. Not with
     /// `keepRing`.
     bool carryOn(const scene::Scene& scene, const FrameLight& before,
                  std::span<const std::function<glm::dvec3(const glm::dvec3&)>> ways, int generations);
+    /// With `keepRing`, before the first generation: goes on with the ring of the renderer of the scene before, whose
+    /// generations give way to new ones. Returns whether there was any light to go on with. Errors: what the renderer's
+    /// `check` throws.
+    bool goOnFrom(const scene::Scene& scene, const FrameLight& before,
+                  std::span<const std::function<glm::dvec3(const glm::dvec3&)>> ways);
     /// Of all that light depends on (render/light_fingerprint.h), as it is in this scene.
     std::string lightFingerprint(const scene::Scene& scene);
     /// Draws a view: layers as in the documented EXR contract. All views share the photons.
@@ -206,6 +212,14 @@ class Renderer {
     bool setWind(const glm::dvec3& velocity);
     /// Moves the clouds to where the wind has carried them at this time [s]; at 0 they are where the scene has them.
     void setTime(double seconds);
+
+    SceneChanges changes() const;
+    /// Takes over what has changed in a renderer of a scene of as many clouds. Extinctions of clouds in which there is
+    /// nothing stay. Returns whether anything is another now. Errors: InputError where the scene cannot have such
+    /// light.
+    bool take(const SceneChanges& changes);
+    /// From voxels of a cloud to metres, without its offset.
+    glm::dmat4 placementOf(std::size_t cloud) const;
 
     /// What light meets in the world as it is now, for questions without a picture; its own copy but for densities,
     /// which are immutable. The first call reads densities back from the device.

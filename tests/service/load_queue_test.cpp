@@ -104,6 +104,22 @@ TEST_F(LoadQueueTest, ClientsThatLeaveWaitForNothing) {
     EXPECT_EQ(queue.count(2), 0U);
 }
 
+TEST_F(LoadQueueTest, DensitiesWaitAsScenesDoButNobodyWaitsForThem) {
+    queue.push({1, 0, {}, {}, std::make_shared<const DensityWish>()}, now);
+    push(1, 1);
+    queue.push({2, 2, {}, {}, std::make_shared<const DensityWish>()}, now);
+    EXPECT_EQ(queue.count(1), 1U) << "scenes alone";
+    EXPECT_EQ(queue.count(2), 0U);
+    findAll({2.0, 3.0, 1.0});
+    EXPECT_EQ(next({{2, "x", false}}), 0) << "in its order, before the scene of its client";
+    queue.push({1, 3, {}, {}, std::make_shared<const DensityWish>()}, now);
+    const std::vector<LoadJob> taken = queue.takeDensities(1);
+    ASSERT_EQ(taken.size(), 1U);
+    EXPECT_EQ(taken.front().id, 3U);
+    EXPECT_EQ(next(), 2);
+    EXPECT_EQ(next(), 1);
+}
+
 TEST_F(LoadQueueTest, CostsAreVoxelsAndBytes) {
     const test::TemporaryFolder folder;
     std::ofstream(folder / "a.vdb") << std::string(1000, 'x');

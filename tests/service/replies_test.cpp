@@ -77,10 +77,27 @@ TEST(Replies, AnswersHaveTheTypeOfTheirRequest) {
     EXPECT_EQ(type(StreamStopped{}), replyTo(MessageType::stopStream));
     EXPECT_EQ(type(FrameCancelled{}), replyTo(MessageType::cancel));
     EXPECT_EQ(type(LightChanged{}), replyTo(MessageType::change));
+    EXPECT_EQ(type(DensityChanged{}), replyTo(MessageType::change));
     EXPECT_EQ(type(QueryAnswer{}), replyTo(MessageType::query));
     const Message failure = encodeReply(1, Failure{"busy", "too many", "streams"});
     EXPECT_EQ(failure.type, MessageType::error);
     EXPECT_EQ(json::parse(failure.json), json::parse(R"({"code":"busy","message":"too many","where":"streams"})"));
+}
+
+TEST(Replies, AnotherDensityIsToldWithWhatIsDrawn) {
+    DensityChanged changed;
+    changed.scene.name = "a.toml";
+    changed.clouds = {{"c", std::string(64, 'a'), {}}, {"d", {}, 2.5}};
+    changed.photons.generations = 20;
+    changed.photons.current = 1;
+    changed.carried = true;
+    const json body = json::parse(encodeReply(1, changed).json);
+    EXPECT_EQ(body["scene"]["name"], "a.toml");
+    EXPECT_EQ(body["clouds"][0], (json{{"name", "c"}, {"vdb", "sha256:" + std::string(64, 'a')}}));
+    EXPECT_EQ(body["clouds"][1], (json{{"name", "d"}, {"file", 2.5}}));
+    EXPECT_EQ(body["generations"], 20);
+    EXPECT_EQ(body["current_generations"], 1);
+    EXPECT_EQ(body["carried"], true);
 }
 
 TEST(Replies, StatisticsHaveTheSceneWhereThereIsOne) {

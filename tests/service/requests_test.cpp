@@ -188,6 +188,34 @@ TEST(Requests, ASceneIsAsSmallAsAFileOfOne) {
     EXPECT_EQ(refusal(request(MessageType::loadScene, "{}", std::vector<std::byte>((1U << 20U) + 1))), "too_large: ");
 }
 
+TEST(Requests, AChangeMayGiveACloudAnotherDensity) {
+    const std::string hash(64, 'a');
+    const auto change = [](const std::string& json) {
+        return std::get<Change>(parseRequest(request(MessageType::change, json.c_str()), {}));
+    };
+    const auto refused = [](const std::string& json) { return refusal(request(MessageType::change, json.c_str())); };
+    Change asked = change(R"({"cloud":"c","vdb":"sha256:)" + hash + R"(","grid":"smoke","seconds":0.5})");
+    EXPECT_EQ(asked.cloud, CloudReference("c"));
+    EXPECT_EQ(asked.density->vdb, hash);
+    EXPECT_EQ(asked.density->grid, "smoke");
+    EXPECT_EQ(asked.density->seconds, 0.5);
+    EXPECT_FALSE(asked.density->frame);
+    asked = change(R"({"frame":2.5})");
+    EXPECT_EQ(asked.density->frame, 2.5);
+    EXPECT_TRUE(asked.density->vdb.empty());
+    EXPECT_FALSE(asked.cloud);
+    EXPECT_FALSE(change(R"({"extinction":0.1})").density);
+    EXPECT_EQ(refused(R"({"vdb":"../a.vdb"})"), "bad_request: vdb");
+    EXPECT_EQ(refused(R"({"frame":1,"vdb":")" + hash + "\"}"), "bad_request: frame");
+    EXPECT_EQ(refused(R"({"frame":1e10})"), "bad_request: frame");
+    EXPECT_EQ(refused(R"({"frame":1,"seconds":1})"), "bad_request: seconds");
+    EXPECT_EQ(refused(R"({"vdb":")" + hash + R"(","seconds":-1})"), "bad_request: seconds");
+    EXPECT_EQ(refused(R"({"grid":"density"})"), "bad_request: grid");
+    EXPECT_EQ(refused(R"({"frame":1,"extinction":1})"), "bad_request: frame");
+    EXPECT_EQ(refused(R"({"frame":1,"clouds":[{"remove":0}]})"), "bad_request: frame");
+    EXPECT_EQ(refusal(request(MessageType::frame, R"({"frame":1})")), "bad_request: frame");
+}
+
 TEST(Requests, AChangeMayNameTheCloudOfItsExtinction) {
     const auto change = [](const char* json) {
         return std::get<Change>(parseRequest(request(MessageType::change, json), {}));

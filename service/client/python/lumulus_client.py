@@ -149,7 +149,7 @@ class Client:
         return self.ask("load_scene", fields, (toml or "").encode())[0]
 
     def upload(self, path):
-        """Sends a VDB file, unless the server has it. Returns its hash, for load_scene(vdb=…)."""
+        """Sends a VDB file, unless the server has it. Returns its hash, for load_scene(vdb=…) and change(vdb=…)."""
         size, digest = os.path.getsize(path), hashlib.sha256()
         with open(path, "rb") as file:
             while chunk := file.read(CHUNK):
@@ -189,8 +189,9 @@ class Client:
         return info["found"]
 
     def change(self, **fields):
-        """Changes sun, extinction, wind or clouds of the scene; the light is the client's own from then on, unless the
-        server lets clients share it."""
+        """Changes sun, extinction, wind or clouds of the scene, or the density of a cloud (vdb=… of upload(), frame=…), whose
+        reply comes when it is shown; the light is the client's own from then on, unless the server lets clients share
+        it."""
         return self.ask("change", fields)[0]
 
     def composite(self, color, depth, width, height, **fields):

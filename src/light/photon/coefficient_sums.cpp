@@ -70,6 +70,24 @@ void CoefficientSums::goOnFrom(std::span<const std::int64_t> sum, int generation
     gpu::upload(context_, startedSum(), sum);
 }
 
+void CoefficientSums::goOnFromRing(std::span<const std::int64_t> sum, int generations, int kept, int baseExponent) {
+    assert(keepRing_ && kept_ == 0 && sum.size() == coefficients_ && generations <= kept);
+    assert(static_cast<std::size_t>(generations) <= slots_.size());
+    setUnit(baseExponent);
+    kept_ = kept;
+    gpu::upload(context_, startedSum(), sum);
+    std::vector<std::int64_t> share(sum.size());
+    for (int n = 0; n < generations; ++n) {
+        // integers whose sum is exact: what is over goes to the first ones
+        for (std::size_t i = 0; i < sum.size(); ++i) {
+            const std::int64_t over = sum[i] % generations;
+            share[i] = sum[i] / generations + (n < std::abs(over) ? (over > 0) - (over < 0) : 0);
+        }
+        const auto slot = static_cast<std::size_t>(kept - generations + n) % slots_.size();
+        gpu::upload(context_, slots_[slot], std::span<const std::int64_t>(share));
+    }
+}
+
 void CoefficientSums::add(std::span<const std::int64_t> counts, int generations, int baseExponent) {
     constexpr std::int64_t limit = 0x1FFFFFFFFFFFFFFF;  // as in accumulate.comp
     assert(!keepRing_ && !begun_ && counts.size() == coefficients_ && (!hasUnit_ || baseExponent_ == baseExponent));

@@ -30,6 +30,10 @@ class CoefficientSums {
     void goOnFrom(std::span<const std::int64_t> sum, int generations, std::optional<int> baseExponent,
                   std::uint64_t saturated);
 
+    /// Goes on with a ring whose newest generation was the `kept`-th, and whose sum of `generations` is this one, in
+    /// counts of 2^baseExponent W: each of them has the same share. Before the first generation.
+    void goOnFromRing(std::span<const std::int64_t> sum, int generations, int kept, int baseExponent);
+
     /// Adds counts of 2^baseExponent W that stand for so many generations more; the unit stays, where there is one
     /// already. Without a ring, after the last generation.
     void add(std::span<const std::int64_t> counts, int generations, int baseExponent);

@@ -295,6 +295,11 @@ std::vector<gpu::PassTime> PhotonMap::times() const {
 const std::vector<gpu::Step>& PhotonMap::steps() const {
     return state_->log.steps;
 }
+std::vector<double> PhotonMap::meanExtinctions() const {
+    std::vector<double> means;
+    for (std::size_t i = 0; i < state_->parts.size(); ++i) means.push_back(state_->meanExtinction(i));
+    return means;
+}
 double PhotonMap::unit() const {
     return std::ldexp(1.0, state_->sums.baseExponent());
 }

@@ -101,8 +101,14 @@ class PhotonMap {
     /// none where it is new. What is new gets its light from the next generations, by which it is the mean of those
     /// alone. Before the first generation; begins anew where there is a ground, whose light lies elsewhere then.
     void goOnFrom(PhotonMap& other, std::span<const std::optional<std::size_t>> before);
-    /// What all generations have left, for a map without a ring.
+    /// What all generations have left; of a ring, those in it that are finished.
     TracedSums tracedSums();
+    /// Goes on where the ring of another map was, `like`, with its light in counts of this one, of 2^unitExponent W:
+    /// the sum of all of its generations, each of which has the same share then. `extinctions`: those that the counts
+    /// of each part are of, over that of its medium; 0 where it has none. Before the first generation of a map with a
+    /// ring of at least as many.
+    void goOnFrom(std::span<const std::int64_t> counts, const TracedSums& like, int unitExponent,
+                  std::span<const double> extinctions);
     /// Goes on with the generations of a map of the same scene, as if they had been traced here. Before the first
     /// generation of a map without a ring. Errors: InputError where it cannot be of the same scene.
     void goOnFrom(const TracedSums& sums);
@@ -148,6 +154,8 @@ class PhotonMap {
     const std::vector<MapPart>& parts() const;
     /// Luminance of the power of a photon that begins round a part, as the mean of all generations [W].
     double photonPower(std::size_t part = 0) const;
+    /// Means over the generations of the extinction of each part, over that of its medium: 1 without any.
+    std::vector<double> meanExtinctions() const;
     /// Photons of the ring that are expected to begin round a part.
     std::uint64_t photonsOf(std::size_t part) const;
 

@@ -23,10 +23,11 @@ void PhotonMap::goOnFrom(PhotonMap& other, std::span<const std::optional<std::si
 
 TracedSums PhotonMap::tracedSums() {
     State& s = *state_;
-    assert(!s.options.keepRing && s.ringExtinctions.size() == static_cast<std::size_t>(s.sums.kept()));
+    const auto generations = static_cast<std::uint64_t>(generationsInRing());
+    assert(s.ringExtinctions.size() == generations);
     TracedSums sums;
     sums.photonsEach = s.options.photonsPerGeneration;
-    if (s.sums.kept() > 0) sums.generations = {{s.options.firstGeneration, static_cast<std::uint64_t>(s.sums.kept())}};
+    if (generations > 0) sums.generations = {{firstInRing(), generations}};
     if (s.sums.hasUnit()) sums.unitExponent = s.sums.baseExponent();
     sums.flux = s.newest.flux;
     sums.sunDirection = s.newest.sunDirection;
@@ -48,6 +49,17 @@ void PhotonMap::goOnFrom(const TracedSums& sums) {
     if (s.walk && !s.places.empty()) s.placeCollectors();
 }
 
+void PhotonMap::goOnFrom(std::span<const std::int64_t> counts, const TracedSums& like, int unitExponent,
+                         std::span<const double> extinctions) {
+    State& s = *state_;
+    const GenerationRange ring = like.generations.back();
+    const auto generations = static_cast<int>(ring.count);
+    s.sums.goOnFromRing(counts, generations, static_cast<int>(ring.end() - s.options.firstGeneration), unitExponent);
+    s.ringExtinctions.assign(static_cast<std::size_t>(generations), {extinctions.begin(), extinctions.end()});
+    s.newest = {like.flux, like.sunDirection};
+    if (s.walk && !s.places.empty()) s.placeCollectors();
+}
+
 void PhotonMap::add(std::span<const std::int64_t> counts, int generations, int unitExponent) {
     State& s = *state_;
     s.sums.add(counts, generations, unitExponent);
@@ -59,9 +71,11 @@ MapPlan PhotonMap::plan() const {
 }
 
 std::vector<std::int64_t> PhotonMap::downloadSum() {
-    state_->sums.settleAll();
-    auto values = gpu::download<std::int64_t>(state_->context, state_->sums.startedSum());
-    values.resize(state_->sums.coefficients());
+    State& s = *state_;
+    // a ring does not count what is traced now
+    s.options.keepRing ? s.sums.settle() : s.sums.settleAll();
+    auto values = gpu::download<std::int64_t>(s.context, s.sums.startedSum());
+    values.resize(s.sums.coefficients());
     return values;
 }
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <map>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace lumulus {
+
+/// What of a scene has changed while its renderer lived: what another renderer of as many clouds can take over.
+struct SceneChanges {
+    scene::Sun sun;                           ///< of now
+    std::vector<double> extinctions;          ///< of now, of all clouds [1/m]
+    glm::dvec3 wind{0.0};                     ///< [m/s]
+    std::map<std::size_t, glm::dvec3> moved;  ///< ways of the clouds that do not lie where the scene has them [m]
+};
+
+}  // namespace lumulus
