@@ -5,6 +5,7 @@
 #define LUMULUS_LIB_RAY_SEGMENT
 
 #include "lib/instances.glsl"
+#include "lib/sky_return.glsl"
 #include "lib/sun_source.glsl"
 
 /// Optical depth of the truncated medium beyond which a pixel is opaque.
@@ -107,6 +108,7 @@ void addRay(inout PixelSum sum, RayLight ray, vec3 direction) {
         seen = exp(-ray.truncated);
     else
         seen = exp(-onlyInstance.extinctionScale * ray.depth);
+    if (SKY_RETURN) ray.cloud = max(ray.cloud + returnedSky(direction, ray.depth), 0.0);
     sum.pixel.cloud += ray.cloud;
     sum.pixel.radiance += ray.cloud + environmentRadiance(params.environment, direction) * seen;
     sum.pixel.transmittance += transmittance;

@@ -50,6 +50,7 @@ struct DrawParams {
     int tilesAcross;
     int samples;           // rays a pixel, along each side: a grid of them where pixels are larger than voxels
     float eyeAboveGround;  // metres; unused where there is no ground
+    mat3 skyAxes;          // from the frame of skyReturn to the world
 };
 
 /// Which pixels a dispatch draws: a rectangle of them; a rectangle of sampling points; of a rectangle the pixels in
@@ -160,7 +161,7 @@ struct LightCountsPush {
 static_assert(sizeof(ViewParams) == 56 && offsetof(ViewParams, projection) == 52);
 static_assert(sizeof(LightParams) == 12);
 static_assert(sizeof(SamplingGrid) == 28 && offsetof(SamplingGrid, depthTolerance) == 24);
-static_assert(sizeof(DrawParams) == 160 && offsetof(DrawParams, eyeAboveGround) == 156);
+static_assert(sizeof(DrawParams) == 196 && offsetof(DrawParams, eyeAboveGround) == 156);
 static_assert(sizeof(DrawPush) == 20 && offsetof(DrawPush, count) == 12);
 static_assert(sizeof(InterpolatePush) == 32 && offsetof(InterpolatePush, blocks) == 24);
 static_assert(sizeof(Pixel) == 16 * PIXEL_TEXELS && offsetof(Pixel, unused) == 40);

@@ -15,18 +15,20 @@ struct DrawFeatures {
     bool forwardCut = false;  ///< the forward peak is cut
     bool sun = false;
     bool photons = false;
-    bool grey = false;      ///< albedo and phase function of each cloud are the same for all colours
-    bool coloured = false;  ///< the phase function of a cloud differs between colours
-    bool many = false;      ///< more than one instance
-    bool ground = false;    ///< rays of a march end at a ground
-    bool sparse = false;    ///< densities are in bricks
-    bool air = false;       ///< the sky is an atmosphere
+    bool grey = false;       ///< albedo and phase function of each cloud are the same for all colours
+    bool coloured = false;   ///< the phase function of a cloud differs between colours
+    bool many = false;       ///< more than one instance
+    bool ground = false;     ///< rays of a march end at a ground
+    bool sparse = false;     ///< densities are in bricks
+    bool air = false;        ///< the sky is an atmosphere
+    bool skyReturn = false;  ///< a backward peak sends light of the sky to and fro along rays
 
     std::vector<gpu::SpecConstant> constants() const {
         return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun),
                 gpu::SpecConstant::of(2, photons),    gpu::SpecConstant::of(3, grey),
                 gpu::SpecConstant::of(4, many),       gpu::SpecConstant::of(5, air),
-                gpu::SpecConstant::of(8, coloured),   gpu::SpecConstant::of(15, sparse)};
+                gpu::SpecConstant::of(8, coloured),   gpu::SpecConstant::of(9, skyReturn),
+                gpu::SpecConstant::of(15, sparse)};
     }
 };
 
@@ -46,6 +48,7 @@ struct Volumes {
     const gpu::Image& lightField;
     const gpu::Image& shadowVolume;
     const gpu::Image& sunColours;  ///< of an atmosphere; a texel where there is none
+    const gpu::Image& skyReturn;   ///< shared/sky_return.h; a texel where there is none
 };
 
 /// What every drawing pass reads and writes. `params` holds one shared::DrawParams, `instances` a
@@ -69,6 +72,7 @@ struct DrawInputs {
                 {"lightField", volumes.lightField, gpu::Sampler::linearClamp},
                 {"shadowVolume", volumes.shadowVolume, gpu::Sampler::linearClamp},
                 {"sunColours", volumes.sunColours, gpu::Sampler::linearClamp},
+                {"skyReturn", volumes.skyReturn, gpu::Sampler::linearClamp},
                 {"Pixels", pixels},
                 {"Blocks", squares}};
     }

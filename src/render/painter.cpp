@@ -55,7 +55,8 @@ Tile Painter::shownPart(const World& world, const ViewState::State& view) const 
     return shown;
 }
 
-draw::Volumes Painter::volumes(const World& world, const ViewState::State& view, const gpu::Image& sunColours) const {
+draw::Volumes Painter::volumes(const World& world, const ViewState::State& view, const gpu::Image& sunColours,
+                               const gpu::Image& skyReturn) const {
     const cloud::Asset& first = *world.instances[visible_.front()].asset;
     if (features_.many)
         return {world.sharedVolumes->density(),
@@ -63,7 +64,8 @@ draw::Volumes Painter::volumes(const World& world, const ViewState::State& view,
                 world.sharedVolumes->majorants().image(),
                 view.lightFields ? view.lightFields->image() : none_,
                 world.sharedShadow ? world.sharedShadow->image() : none_,
-                sunColours};
+                sunColours,
+                skyReturn};
     const std::size_t only = visible_.front();
     const auto& field = view.instances[only].field;
     const auto& shadow = world.light[only].shadow;
@@ -72,7 +74,8 @@ draw::Volumes Painter::volumes(const World& world, const ViewState::State& view,
             first.marchedCells(),
             field ? field->image() : none_,
             shadow ? shadow->image() : none_,
-            sunColours};
+            sunColours,
+            skyReturn};
 }
 
 shared::InstanceParams Painter::instanceParams(const World& world, const ViewState::State& view,
@@ -128,6 +131,7 @@ shared::DrawParams Painter::drawParams(const World& world, const ViewState::Stat
     values.samples = view.raysAcross;
     if (world.lights.ground)
         values.eyeAboveGround = static_cast<float>(view.camera.position.y - world.lights.ground->height);
+    if (features_.skyReturn) values.skyAxes = glm::mat3(world.skyReturn->axes);
     values.tilesAcross = view.tiles ? view.tiles->across() : 0;
     if (view.billboards) values.tilesAcross = view.billboards->tilesAcross();
     return values;
@@ -237,7 +241,10 @@ void Painter::paint(GpuWork& work, const World& world, ViewState::State& view, c
     }
     std::optional<gpu::Image> sunColours;
     if (features_.air) sunColours.emplace(sunColourImage(context, world));
-    const draw::Volumes bound = volumes(world, view, sunColours ? *sunColours : noColours_);
+    std::optional<gpu::Image> skyReturn;
+    if (features_.skyReturn) skyReturn.emplace(skyReturnImage(context, *world.skyReturn));
+    const draw::Volumes bound =
+        volumes(world, view, sunColours ? *sunColours : noColours_, skyReturn ? *skyReturn : none_);
     const draw::DrawInputs inputs{params, instances, phase_, bound, pixels, noSquares_};
     report("drawing", 0, bands.size());
     for (std::size_t done = 0; done < bands.size(); ++done) {

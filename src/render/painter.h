@@ -41,7 +41,8 @@ class Painter {
     /// What one picture's passes bind.
     struct Picture;
 
-    draw::Volumes volumes(const World& world, const ViewState::State& view, const gpu::Image& sunColours) const;
+    draw::Volumes volumes(const World& world, const ViewState::State& view, const gpu::Image& sunColours,
+                          const gpu::Image& skyReturn) const;
     shared::InstanceParams instanceParams(const World& world, const ViewState::State& view, std::size_t place) const;
     shared::DrawParams drawParams(const World& world, const ViewState::State& view) const;
     void fillAtlas(GpuWork& work, ViewState::State& view) const;

@@ -17,6 +17,7 @@ draw::DrawFeatures featuresOf(const World& world) {
     features.many = instances.size() > 1;
     features.sparse = std::ranges::any_of(instances, [](const auto* i) { return i->asset->isSparse(); });
     features.air = world.fogLight.has_value() || world.lights.environment.atmosphere() != nullptr;
+    features.skyReturn = world.skyReturn.has_value();
     return features;
 }
 
@@ -86,6 +87,12 @@ gpu::Image sunColourImage(gpu::Context& context, const World& world) {
                 glm::vec4(colours[static_cast<std::size_t>(i)], 1.0F);
     }
     gpu::upload(context, image, texels);
+    return image;
+}
+
+gpu::Image skyReturnImage(gpu::Context& context, const photon::SkyReturn& sky) {
+    gpu::Image image(context, "sky return", photon::SkyReturn::size(), VK_FORMAT_R32G32B32A32_SFLOAT);
+    gpu::upload(context, image, sky.texels);
     return image;
 }
 

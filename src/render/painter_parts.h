@@ -28,6 +28,8 @@ glm::ivec2 sunColourPlace(std::size_t place);
 /// How the sun's light changes within each visible instance, in a world whose sky is an atmosphere.
 gpu::Image sunColourImage(gpu::Context& context, const World& world);
 
+gpu::Image skyReturnImage(gpu::Context& context, const photon::SkyReturn& sky);
+
 /// The smallest tile that holds both. An empty one adds nothing.
 Tile unite(const Tile& a, const Tile& b);
 

@@ -163,10 +163,15 @@ CloudVolumes Maker::load() {
         noted = &cloud.phase;
         if (auto note = phase::normalisationNote(cloud.phase)) report_.warnings.push_back(std::move(*note));
         const bool backward = cloud.phase.model == scene::PhaseModel::henyeyGreenstein && cloud.phase.g < -0.5;
-        if (backward && scene_.sky.model != scene::SkyModel::constant)
+        const auto isOther = [&](const scene::Cloud& other) {
+            return !(other.phase == cloud.phase) || other.albedo != cloud.albedo;
+        };
+        // light that goes to and fro along a ray is known in one medium (photon/sky_return.h)
+        if (backward && scene_.sky.model != scene::SkyModel::constant && std::ranges::any_of(scene_.clouds, isOther))
             report_.warnings.push_back(
-                "clouds that scatter backwards (phase.g below -0.5) may be 16 % too dark under an atmosphere or a map; "
-                "lumulus reference is exact");
+                "clouds that scatter backwards (phase.g below -0.5), beside others of another phase function or "
+                "albedo, "
+                "may be 20 % too dark or too bright under an atmosphere or a map; lumulus reference is exact");
     }
     report_.clouds = summarise(scene_, volumes);
     if (options_.loaded) options_.loaded(report_.clouds, report_.warnings);

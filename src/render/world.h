@@ -15,6 +15,7 @@
 #include "light/instance_light.h"
 #include "light/light_set.h"
 #include "light/photon/photon_map.h"
+#include "light/photon/sky_return.h"
 #include "light/shared_shadow.h"
 #include "render/cloud_origin.h"
 #include "render/kept_assets.h"
@@ -36,6 +37,7 @@ struct World {
     /// Where several instances are drawn: the volumes of their assets, in the order of visible().
     std::shared_ptr<const cloud::SharedVolumes> sharedVolumes{};
     std::optional<photon::PhotonMap> photons{};     ///< of all instances; none where no photon would be of use
+    std::optional<photon::SkyReturn> skyReturn{};   ///< of the medium of all, where it has a backward peak
     std::optional<photon::AirLight> air{};          ///< in all instances together, where several are in air or lit fog
     std::optional<fog_light::FogLight> fogLight{};  ///< in fog without clouds, where it is lit (updateFogLight())
     std::uint64_t fogVersion = 0;                   ///< of it

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <glm/glm.hpp>
 #include <limits>
 #include <vector>
@@ -73,7 +74,23 @@ void findMapLight(World& world, const sky::MapSky& map) {
 
 }  // namespace
 
-void findReachingLight(World& world) {
+namespace {
+
+/// Light of the sky that goes to and fro along lines of sight, where all clouds have one medium with a backward peak.
+std::optional<photon::SkyReturn> skyReturnIn(const World& world) {
+    const std::vector<std::size_t> visible = world.visible();
+    if (visible.empty()) return {};
+    const auto& air = visible.size() > 1 ? world.air : world.light[visible.front()].air;
+    const phase::ScatteringMedium& medium = world.instances[visible.front()].medium;
+    const auto isSame = [&](std::size_t i) {
+        const phase::ScatteringMedium& other = world.instances[i].medium;
+        return other.albedo == medium.albedo && other.tables.axisTable == medium.tables.axisTable;
+    };
+    if (!air || air->cells.empty() || !photon::returnsSky(medium) || !std::ranges::all_of(visible, isSame)) return {};
+    return photon::makeSkyReturn(*air, medium);
+}
+
+void findLightOfClouds(World& world) {
     updateFogLight(world);
     if (world.fogLight) return findFogLightInClouds(world);
     const sky::Atmosphere* atmosphere = world.lights.environment.atmosphere();
@@ -95,6 +112,13 @@ void findReachingLight(World& world) {
     const photon::Box all = boxOfAll(world);
     world.air = photon::makeAirLight(*atmosphere, &skyMapsOf(world, all), direct, all);
     world.air->sunAbove = glm::max(world.lights.sun.irradiance, direct.irradiance);
+}
+
+}  // namespace
+
+void findReachingLight(World& world) {
+    findLightOfClouds(world);
+    world.skyReturn = skyReturnIn(world);
 }
 
 void placeInstances(World& world) {

@@ -16,6 +16,8 @@ lumulus_study(studies.scaling scaling ${tiny} --resolutions 24 --collectors 200 
 lumulus_study(studies.bias_table bias_table ${tiny} --scenes smoke --spp 2 --fewer 1000)
 lumulus_study(studies.flat_voxels flat_voxels --spp 2 --set photon_map.photons=1000 --set photon_map.generations=2
               --set preparation.samples=500 --set cloud.0.resolution=16)
+lumulus_study(studies.backward_peak backward_peak --g -0.95 --views "from the side" --quality draft --spp 2
+              --set photon_map.photons=1000 --set preparation.samples=500 --set cloud.0.resolution=16)
 lumulus_study(studies.sequence sequence --width 32 --frames 3 --photons 4000 --alone 2 --kills 2
               --set preparation.samples=100)
 lumulus_study(studies.colour_specks colour_specks ${tiny} --scenes smoke many --seeds 2)

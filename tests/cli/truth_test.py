@@ -196,6 +196,28 @@ class AgainstTheReference(CliTest):
                 self.assertLess(error, 0.012, "else this test says little")
                 self.assertLess(abs(bias), 0.03 + 2.0 * error)
 
+    def test_backscattering_under_a_bright_horizon(self):
+        """A backward peak sends a bright horizon back as sharp as it is: level and from above, within 3 % of the reference. The
+        sky is that of a clear evening, without a sun of its own."""
+        sky = self.folder / "sky.exr"
+        clear = self.scene("""
+cloud = []
+image = { width = 256, height = 128 }
+camera = { projection = "panorama", position = [0, 0, 0], target = [0, 0, -1] }
+sun = { azimuth = 20, elevation = -1 }
+sky = { model = "atmosphere" }
+""")
+        result = self.run_lumulus("render", clear, "-o", sky, "--quiet")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        path = self.scene(f"sky = {{ model = \"map\", map = \"{sky}\", map_sun = false }}\nsun = {{ irradiance = 0 }}\n" + SCENE +
+                          "phase = { model = \"henyey-greenstein\", g = -0.95 }\n")
+        for g, camera in ((-0.95, "[0, 0, 9000]"), (-0.99, "[0, 0, 9000]"), (-0.99, "[0, 4000, 5000]")):
+            with self.subTest(g=g, camera=camera):
+                bias, error = self.bias(path, 1000000, 64, f"cloud.0.phase.g={g}", f"camera.position={camera}",
+                                        "camera.target=[0, 0, 0]", "camera.vertical_fov=8")
+                self.assertLess(error, 0.006, "else this test says little")
+                self.assertLess(abs(bias), 0.03 + 2.0 * error)
+
     def test_flat_voxels(self):
         """Layers of voxels of 50:2:50 m from their side: a ball of a few pixels and a lopsided cumulus, within 1 %."""
         path = self.scene(SCENE.replace("resolution = 16", "resolution = 24") +

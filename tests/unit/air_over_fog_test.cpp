@@ -76,6 +76,30 @@ TEST_P(ThinFog, LeavesTheLightOfTheAtmosphere) {
 
 INSTANTIATE_TEST_SUITE_P(Suns, ThinFog, testing::Values(60.0, 20.0, 8.0));
 
+/// A low sun comes through the kilometres of air that haze reaches up into as through round air, whose colours change
+/// on the way: on the ground nearly so, and between it and the top within some percents.
+TEST(AirOverFog, ALowSunIsAsBrightInHighHaze) {
+    const scene::Ground ground{glm::dvec3(0.2), 0.0};
+    const sky::Atmosphere atmosphere(scene::Sky(), ground, 0.53);
+    FogLayer haze;
+    haze.scattering = glm::dvec3(1e-12);
+    haze.bottom = 0.0, haze.top = 3300.0;
+    for (const double elevation : {5.0, 10.0}) {
+        const scene::Sun sun{towards(elevation, 70.0), scene::sunAboveAir};
+        const AirOverFog air(atmosphere, {sun}, {haze}, ground.albedo, 3300.0);
+        std::vector<FogLayer> layers{haze};
+        for (const FogLayer& layer : air.layers()) layers.push_back(layer);
+        const FogLight light(layers, air.setting());
+        const FogSurroundings around{light, &air};
+        for (const double height : {1.0, 300.0, 1000.0}) {
+            const glm::dvec3 expected = atmosphere.sunColour({0.0, height, 0.0}, sun.directionTo);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(around.sunShare(height)[c] / expected[c], 1.0, height < 10.0 ? 0.005 : 0.05)
+                    << elevation << " " << height;
+        }
+    }
+}
+
 /// A fog that reflects lights up the air above it, as a ground of its albedo does.
 TEST(AirOverFog, BrightFogCountsAsBrightGround) {
     const sky::Atmosphere atmosphere(scene::Sky{}, scene::Ground{glm::dvec3(0.05), 0.0}, 0.53);

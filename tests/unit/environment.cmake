@@ -4,3 +4,4 @@ lumulus_test(atmosphere_test
           ${CMAKE_CURRENT_LIST_DIR}/colour_matrix_test.cpp ${CMAKE_CURRENT_LIST_DIR}/harmonics_test.cpp
   LINK lumulus_sky)
 lumulus_test(sky_view_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/sky_view_test.cpp LINK lumulus_photon lumulus_sky)
+lumulus_test(sky_return_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/sky_return_test.cpp LINK lumulus_photon)

@@ -149,7 +149,7 @@ TEST(SharedLayout, Draw) {
                   cellOrigin, lightSize, shadowSize, firstBrick, air, airTexel);
     EXPECT_LAYOUT(billboards_comp, SamplingGrid, first, size, spacing, tolerance, depthTolerance);
     EXPECT_LAYOUT(billboards_comp, DrawParams, view, light, environment, atlas, sampling, instances, tilesAcross,
-                  samples, eyeAboveGround);
+                  samples, eyeAboveGround, skyAxes);
     EXPECT_PUSH(billboards_comp, DrawPush, what, first, count);
     EXPECT_PUSH(interpolate_comp, InterpolatePush, first, count, firstBlock, blocks);
     EXPECT_LAYOUT(billboards_comp, Pixel, cloud, transmittance, alpha, depth, front, radiance, unused);

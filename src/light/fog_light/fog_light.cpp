@@ -39,6 +39,24 @@ void solveMode(const Stack& stack, const FogSetting& setting, const SkyLight& sk
     solved.modes[static_cast<std::size_t>(mode)] = seenAlongRows(stack, mode, moments);
 }
 
+/// Light of all modes together: of each colour by [level][row][column].
+std::vector<Vector> seenByAzimuth(const std::vector<Solved>& solved) {
+    const Vector azimuths = columnAzimuths();
+    std::vector<Vector> seen;
+    for (const Solved& colour : solved) {
+        Vector& light = seen.emplace_back(colour.modes.front().size() * columns);
+        tbb::parallel_for(std::size_t{0}, colour.modes.front().size(), [&](std::size_t place) {
+            for (std::size_t column = 0; column < columns; ++column) {
+                double sum = 0.0;
+                for (std::size_t mode = 0; mode < colour.modes.size(); ++mode)
+                    sum += std::cos(static_cast<double>(mode) * azimuths[column]) * colour.modes[mode][place];
+                light[place * columns + column] = std::max(sum, 0.0);
+            }
+        });
+    }
+    return seen;
+}
+
 double between(double a, double b, double share) {
     return a + share * (b - a);
 }
@@ -67,19 +85,9 @@ FogLight::FogLight(const std::vector<FogLayer>& layers, const FogSetting& settin
         irradianceBelow_[channel] = solved[static_cast<std::size_t>(channel)].irradianceBelow;
     for (std::size_t k = 0; k < levels_.size(); ++k)
         above_.emplace_back(stacks[0].above[k], stacks[1].above[k], stacks[2].above[k]);
-    scattered_.resize(levels_.size() * 2 * rows * columns);
-    const Vector azimuths = columnAzimuths();
-    tbb::parallel_for(std::size_t{0}, levels_.size() * 2 * rows, [&](std::size_t place) {
-        for (std::size_t column = 0; column < columns; ++column) {
-            glm::dvec3 sum(0.0);
-            for (int mode = 0; mode < modes; ++mode) {
-                const double cosine = std::cos(mode * azimuths[column]);
-                for (int c = 0; c < 3; ++c)
-                    sum[c] += cosine * solved[static_cast<std::size_t>(c)].modes[static_cast<std::size_t>(mode)][place];
-            }
-            scattered_[place * columns + column] = glm::vec3(glm::max(sum, glm::dvec3(0.0)));
-        }
-    });
+    const std::vector<Vector> byColour = seenByAzimuth(solved);
+    for (std::size_t i = 0; i < byColour.front().size(); ++i)
+        scattered_.emplace_back(byColour[0][i], byColour[1][i], byColour[2][i]);
     once_.assign(layers_.size(), std::vector<glm::vec3>(levels_.size() * 2 * rows));
     for (std::size_t n = 0; n < layers_.size(); ++n)
         for (int c = 0; c < 3; ++c) {
@@ -90,20 +98,22 @@ FogLight::FogLight(const std::vector<FogLayer>& layers, const FogSetting& settin
     addAir();
     FogSetting dark = setting_;
     dark.sun = glm::dvec3(0.0);
-    std::vector<Solved> ofSky(3, Solved{std::vector<Vector>(1), 0.0});
-    tbb::parallel_for(std::size_t{0}, std::size_t{3},
-                      [&](std::size_t c) { solveMode(stacks[c], dark, sky, static_cast<int>(c), 0, ofSky[c]); });
-    findSunShares({ofSky[0].modes[0], ofSky[1].modes[0], ofSky[2].modes[0]});
+    // a sky that differs by direction is brightest about the sun, and so is what fog scatters of it
+    const int skyModes = setting.skyAt ? modeCount : 1;
+    std::vector<Solved> ofSky(3, Solved{std::vector<Vector>(static_cast<std::size_t>(skyModes)), 0.0});
+    tbb::parallel_for(0, 3 * skyModes, [&](int task) {
+        const auto c = static_cast<std::size_t>(task % 3);
+        solveMode(stacks[c], dark, sky, task % 3, task / 3, ofSky[c]);
+    });
+    findSunShares(seenByAzimuth(ofSky));
 }
 
-/// The sky's light is taken for the same all around.
+/// `ofSky`: by colour, [level][row][column].
 void FogLight::findSunShares(const std::vector<Vector>& ofSky) {
     sunShares_.resize(scattered_.size());
     const auto luminance = [](const glm::dvec3& rgb) { return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)); };
     for (std::size_t i = 0; i < scattered_.size(); ++i) {
-        const std::size_t place = i / columns;
-        const double all = luminance(scattered_[i]),
-                     sky = luminance({ofSky[0][place], ofSky[1][place], ofSky[2][place]});
+        const double all = luminance(scattered_[i]), sky = luminance({ofSky[0][i], ofSky[1][i], ofSky[2][i]});
         sunShares_[i] = static_cast<float>(all > 0.0 ? std::clamp(1.0 - sky / all, 0.0, 1.0) : 0.0);
     }
 }
