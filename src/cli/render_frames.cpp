@@ -168,9 +168,9 @@ class Frames {
     }
 
   private:
-    scene::Scene sceneOf(const Frame& frame) const { return placeClouds(scenes_.at(frame.frame)); }
+    scene::Scene sceneOf(const Frame& frame) { return placeClouds(scenes_.at(frame.frame), &places_); }
     /// The scene of the frame behind, where there is one; what is wrong with it shows when it is rendered.
-    std::optional<scene::Scene> readable(const Frame* next) const {
+    std::optional<scene::Scene> readable(const Frame* next) {
         if (next == nullptr) return std::nullopt;
         try {
             return sceneOf(*next);
@@ -215,6 +215,7 @@ class Frames {
 
     const RenderOptions& options_;
     const FrameScenes& scenes_;
+    KnownPlaces places_;
     bool told_ = false;  ///< of the clouds of the first frame
     job::FrameRenderer renderer_;
     Clock::time_point kept_ = Clock::now();

@@ -61,7 +61,8 @@ bool haveSameClouds(const scene::Scene& a, const scene::Scene& b) {
 }
 
 FrameRenderer::FrameRenderer(const RendererOptions& options) : options_(options), next_(options.check) {
-    options_.read = [this](const scene::Scene&, CloudVolumes& volumes) { return next_.take(*made_, volumes); };
+    options_.read = [this](const scene::Scene&) { return next_.take(*made_); };
+    options_.kept = &kept_;
 }
 
 void FrameRenderer::makeRenderer(const scene::Scene& scene, std::int64_t number) {
@@ -79,7 +80,10 @@ void FrameRenderer::makeRenderer(const scene::Scene& scene, std::int64_t number)
 
 void FrameRenderer::make(const scene::Scene& scene, std::int64_t number, const scene::Scene* next) {
     makeRenderer(scene, number);
-    if (next != nullptr && !haveSameClouds(scene, *next)) next_.begin(*next);
+    if (next != nullptr && !haveSameClouds(scene, *next))
+        next_.begin(*next);
+    else
+        next_.drop();
     for (int done = 0; done < renderer_->generationsWanted(); ++done) {
         stopIfInterrupted();
         renderer_->traceGeneration();
@@ -124,6 +128,7 @@ Renderer& FrameRenderer::of(const scene::Scene& scene, std::int64_t number, cons
 void FrameRenderer::forget() {
     renderer_.reset();
     light_.reset();
+    kept_ = KeptClouds();
 }
 
 std::optional<map_file::MapFile> FrameRenderer::map() {

@@ -7,13 +7,15 @@
 #include "job/next_volumes.h"
 #include "light/map_file/map_file.h"
 #include "render/frame_light.h"
+#include "render/kept_clouds.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
 
 namespace lumulus::job {
 
 /// Renders the frames of a sequence one after the other on one device, and keeps from one frame to the next what does
-/// not change: all photons where only the camera moves, the clouds where only lights change. Each frame has the bits
+/// not change: all photons where only the camera moves, the clouds where only lights change, and what depends on
+/// densities alone where clouds move. Each frame has the bits
 /// that a process of its own would give it, unless scenes ask for `photon_map.transfer`: then a frame goes on with the
 /// light of those before it.
 class FrameRenderer {
@@ -43,6 +45,7 @@ class FrameRenderer {
 
     RendererOptions options_;
     NextVolumes next_;
+    KeptClouds kept_;                     ///< of the last frame whose clouds were made
     const scene::Scene* made_ = nullptr;  ///< scene of the renderer that is being made
     std::optional<scene::Scene> shown_;   ///< of `renderer_`
     std::unique_ptr<Renderer> renderer_;

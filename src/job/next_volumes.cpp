@@ -8,11 +8,11 @@
 namespace lumulus::job {
 
 NextVolumes::~NextVolumes() {
-    drop();
+    wait();
 }
 
 /// Waits for what is in the making.
-void NextVolumes::drop() {
+void NextVolumes::wait() {
     scene_.reset();
     if (!volumes_.valid()) return;
     try {
@@ -21,25 +21,30 @@ void NextVolumes::drop() {
     }
 }
 
-void NextVolumes::begin(const scene::Scene& scene) {
-    if (scene_ == scene) return;
-    drop();
-    scene_ = scene;
-    // of the caller's scene a copy: it is gone before the thread is done
-    volumes_ = std::async(std::launch::async, [scene, check = check_] {
-        return loadClouds(scene, noReport, check, FieldStorage::asWanted);
-    });
+void NextVolumes::drop() {
+    wait();
+    known_ = {};
 }
 
-bool NextVolumes::take(const scene::Scene& scene, CloudVolumes& volumes) {
-    if (!volumes_.valid() || !(scene_ == scene)) return false;
-    scene_.reset();
-    try {
-        volumes = volumes_.get();
-        return true;
-    } catch (const std::exception&) {
-        return false;
+CloudVolumes NextVolumes::read(const scene::Scene& scene) {
+    return loadClouds(scene, noReport, check_, FieldStorage::asWanted, &known_);
+}
+
+void NextVolumes::begin(const scene::Scene& scene) {
+    if (scene_ == scene) return;
+    wait();
+    scene_ = scene;
+    // of the caller's scene a copy: it is gone before the thread is done
+    volumes_ = std::async(std::launch::async, [this, scene] { return read(scene); });
+}
+
+CloudVolumes NextVolumes::take(const scene::Scene& scene) {
+    if (!volumes_.valid() || !(scene_ == scene)) {
+        wait();
+        return read(scene);
     }
+    scene_.reset();
+    return volumes_.get();
 }
 
 }  // namespace lumulus::job

@@ -59,8 +59,7 @@ Media mediaOf(const scene::Scene& scene, CloudVolumes volumes, const Check& chec
         volume = {};
     }
     if (!volumes.isSparse())
-        for (const vdb::Volume& volume : volumes.volumes)
-            fields.push_back(std::make_shared<const BrickField>(volume, check));
+        for (const auto& volume : volumes.volumes) fields.push_back(std::make_shared<const BrickField>(*volume, check));
     units.resize(fields.size(), 1.0);
     std::vector<PlacedField> placed;
     for (std::size_t i = 0; i < volumes.clouds.size(); ++i) {

@@ -74,7 +74,8 @@ Renderer::Renderer(const scene::Scene& scene, const RendererOptions& options)
     State& s = *state_;
     WorldReport report;
     s.world.emplace(makeWorld(s.context, scene,
-                              {options.keepRing, options.progressive, s.report, options.loaded, s.check, options.read},
+                              {options.keepRing, options.progressive, s.report, options.loaded, s.check, options.read,
+                               keptOn(s.ownContext, options.kept)},
                               report));
     s.statistics.warnings = std::move(report.warnings);
     s.statistics.clouds = std::move(report.clouds);
@@ -89,12 +90,15 @@ Renderer::Renderer(const scene::Scene& scene, const Renderer& other, const Rende
     : state_(std::make_unique<State>(drawable(scene), options, other.state_->ownContext)) {
     State& s = *state_;
     const Stopwatch preparing;
-    s.world.emplace(makeWorldBeside(s.context, scene, *other.state_->world,
-                                    {options.keepRing, options.progressive, s.report, {}, s.check}));
+    s.world.emplace(makeWorldBeside(
+        s.context, scene, *other.state_->world,
+        {options.keepRing, options.progressive, s.report, {}, s.check, {}, keptOn(s.ownContext, options.kept)}));
     for (std::size_t i = 0; i < s.world->light.size(); ++i)
         s.world->light[i].layouts = other.state_->world->light[i].layouts;
     s.statistics.warnings = other.state_->statistics.warnings;
     s.statistics.clouds = other.state_->statistics.clouds;
+    for (const AssetSummary& asset : other.state_->statistics.assets)
+        s.statistics.assets.push_back(asset.withoutTimes());
     s.makePainters(scene);
     s.statistics.prepareSeconds = preparing.seconds();
 }
@@ -106,7 +110,7 @@ Renderer::Renderer(const scene::Scene& scene, Renderer& other, std::span<const C
     State& before = *other.state_;
     const Stopwatch preparing;
     s.world.emplace(makeEditedWorld(s.context, scene, *before.world, origins,
-                                    {options.keepRing, options.progressive, s.report, {}, s.check}));
+                                    {options.keepRing, options.progressive, s.report, {}, s.check, {}, nullptr}));
     s.world->wind = before.world->wind;
     for (std::size_t i = 0; i < origins.size(); ++i) {
         s.world->light[i].layouts = before.world->light[origins[i].from].layouts;

@@ -30,11 +30,12 @@ class Context;
 
 namespace lumulus {
 
+class KeptClouds;
 struct CloudVolumes;
 struct FrameLight;
 
-/// Gives the densities of a scene, where they were read beforehand; else returns false.
-using ReadBefore = std::function<bool(const scene::Scene&, CloudVolumes&)>;
+/// Gives the densities of a scene, in the place of loadClouds().
+using ReadClouds = std::function<CloudVolumes(const scene::Scene&)>;
 
 struct RendererOptions {
     std::string device;        ///< name (part of it) or index; empty: the best one
@@ -47,7 +48,8 @@ struct RendererOptions {
     bool progressive = false;
     std::shared_ptr<gpu::Context> context{};  ///< the device of another renderer, in the place of `device`; may be null
     ToldOfClouds loaded{};                    ///< told of the clouds before any work on them, which can take long
-    ReadBefore read{};                        ///< gives densities that were read beforehand
+    ReadClouds read{};                        ///< gives densities that may have been read beforehand
+    KeptClouds* kept = nullptr;               ///< what the renderer before has left; not with a ring
 };
 
 /// What `--stats` reports.

@@ -21,8 +21,9 @@ namespace lumulus {
 namespace {
 
 /// An atmosphere has its planet's ground, with the albedo and height of the scene's; it is no part of the scene then.
-light::LightSet lightsOf(const scene::Scene& scene) {
-    const sky::Environment environment(scene.sky, scene.ground, scene.sun.angularDiameter, sky::moonOf(scene));
+light::LightSet lightsOf(const scene::Scene& scene, KeptClouds::State* kept) {
+    KeptAir none;
+    const sky::Environment environment = (kept != nullptr ? kept->air : none).environmentOf(scene);
     std::optional<scene::Ground> ground = scene.ground, planet;
     if (environment.atmosphere() != nullptr) {
         planet = scene.ground.value_or(scene::Ground{scene.sky.groundAlbedo, 0.0});
@@ -66,16 +67,17 @@ class Maker {
         const Stopwatch loading;
         CloudVolumes volumes = load();
         standOnGround(world_.bounds);
-        const std::vector<vdb::PlacedVolume> placed = volumes.placed();
         report_.loadSeconds = loading.seconds();
         makeCamera(scene_.camera, scene_.image, world_.bounds);  // what is wrong with it shows before the work
         const Stopwatch preparing;
+        if (options_.kept != nullptr && volumes.isSparse()) options_.kept->keepOnly({});  // its pool
         const std::shared_ptr<const gpu::Image> pool = makePool(context_, volumes.bricks, options_.check);
         world_.light.resize(world_.instances.size());
-        prepareAssets(context_, scene_, placed, pool, options_, world_, report_);
+        if (options_.kept != nullptr) world_.fields = options_.kept->fields;
+        prepareAssets(context_, scene_, volumes, pool, options_, world_, report_);
         findReachingLight(world_);
         lightUp();
-        if (!placed.empty()) report_.prepareSeconds = preparing.seconds();
+        if (!volumes.clouds.empty()) report_.prepareSeconds = preparing.seconds();
         return std::move(world_);
     }
 
@@ -126,7 +128,7 @@ class Maker {
     /// Lights and fog, with the ground below clouds that lie within these bounds.
     void standOnGround(const Bounds& clouds) {
         const scene::Scene grounded = groundedScene(scene_, clouds);
-        world_.lights = lightsOf(grounded);
+        world_.lights = lightsOf(grounded, options_.kept);
         world_.fog = grounded.fog;
     }
     /// The volumes of all clouds; places the instances.
@@ -152,9 +154,8 @@ class Maker {
 };
 
 CloudVolumes Maker::load() {
-    CloudVolumes volumes;
-    if (!options_.read || !options_.read(scene_, volumes))
-        volumes = loadClouds(scene_, options_.report, options_.check, FieldStorage::asWanted);
+    CloudVolumes volumes = options_.read ? options_.read(scene_)
+                                         : loadClouds(scene_, options_.report, options_.check, FieldStorage::asWanted);
     report_.warnings = std::move(volumes.warnings);
     const scene::Phase* noted = nullptr;
     for (const scene::Cloud& cloud : scene_.clouds) {
@@ -195,7 +196,9 @@ void Maker::lightUp() {
     if (visible.size() > 1) {
         std::vector<const cloud::Instance*> instances;
         for (const std::size_t i : visible) instances.push_back(&world_.instances[i]);
-        world_.sharedVolumes = std::make_unique<cloud::SharedVolumes>(context_, instances);
+        world_.sharedVolumes = options_.kept != nullptr
+                                   ? options_.kept->sharedVolumes(context_, instances)
+                                   : std::make_shared<const cloud::SharedVolumes>(context_, instances);
     }
     bool scatters = false;
     std::unordered_map<const cloud::Asset*, std::shared_ptr<light::CellLayouts>> layouts;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,8 +16,8 @@
 #include "light/light_set.h"
 #include "light/photon/photon_map.h"
 #include "light/shared_shadow.h"
-#include "query/bricks.h"
 #include "render/cloud_origin.h"
+#include "render/kept_assets.h"
 #include "scene/scene.h"
 #include "volume/summary.h"
 
@@ -35,7 +34,7 @@ struct World {
     std::vector<cloud::Instance> instances{};   ///< one for each cloud of the scene, in its order
     std::vector<light::InstanceLight> light{};  ///< of each instance
     /// Where several instances are drawn: the volumes of their assets, in the order of visible().
-    std::unique_ptr<cloud::SharedVolumes> sharedVolumes{};
+    std::shared_ptr<const cloud::SharedVolumes> sharedVolumes{};
     std::optional<photon::PhotonMap> photons{};     ///< of all instances; none where no photon would be of use
     std::optional<photon::AirLight> air{};          ///< in all instances together, where several are in air or lit fog
     std::optional<fog_light::FogLight> fogLight{};  ///< in fog without clouds, where it is lit (updateFogLight())
@@ -47,8 +46,7 @@ struct World {
     bool levelsOfDetail = false;   ///< whether instances have voxels chosen by their size in the picture
     scene::PhotonMap photonMap{};  ///< that is asked for: the scene's, but where voxels are flat
     glm::dvec3 wind{0.0};          ///< velocity with which all instances drift [m/s]
-    /// Densities on the host, of the assets that a question has needed them of.
-    std::map<const cloud::Asset*, std::shared_ptr<const query::BrickField>> fields{};
+    std::shared_ptr<FieldsOfAssets> fields = std::make_shared<FieldsOfAssets>();
 
     /// Numbers of the instances in which there is something.
     std::vector<std::size_t> visible() const;
@@ -73,7 +71,8 @@ struct WorldOptions {
     Report report = noReport;
     ToldOfClouds loaded{};
     Check check = stopIfInterrupted;
-    std::function<bool(const scene::Scene&, CloudVolumes&)> read{};
+    std::function<CloudVolumes(const scene::Scene&)> read{};
+    KeptClouds::State* kept = nullptr;  ///< of the world before; null: nothing is kept
 };
 
 /// Loads and prepares the clouds of a scene. Errors: InputError for what is wrong with the scene, Error where

@@ -10,7 +10,9 @@
 #include "cloud/refined.h"
 #include "frame/view_params.h"
 #include "light/photon/map_limits.h"
+#include "render/asset_maker.h"
 #include "view/camera.h"
+#include "volume/load.h"
 
 namespace lumulus {
 
@@ -19,8 +21,6 @@ namespace {
 constexpr double degrees = 3.14159265358979323846 / 180.0;
 /// Metrics of voxels that differ by less have the same shape: rounding of rotations.
 constexpr double sameShape = 1e-6;
-/// Samples of the gradient for each leaf that a tree may have.
-constexpr int samplesOfLeaf = 16;
 /// Texels of shadow volumes whose voxels are smaller than a pixel are so many times as wide across the light.
 constexpr int smallTexel = 2;
 /// Cells of light fields that few photons fill are no larger than so many pixels, but where there would be fewer along
@@ -43,10 +43,6 @@ bool areAlike(const glm::dmat3& a, const glm::dmat3& b) {
             apart = std::max(apart, std::abs(a[i][j] - b[i][j]));
         }
     return apart <= sameShape * largest;
-}
-
-double edgeOf(const glm::dmat3& voxelToMetres) {
-    return std::cbrt(std::abs(glm::determinant(voxelToMetres)));
 }
 
 /// Media of the same phase function and albedo share their tables.
@@ -79,35 +75,6 @@ class MediumMaker {
     std::vector<Known> known_;
 };
 
-/// Detail that an instance needs: a level, and collectors, which are the same for clouds of nearly one size.
-struct Detail {
-    int level = 0;
-    int collectors = std::numeric_limits<int>::max();
-    glm::ivec3 parts{1};  ///< of a voxel, along each axis
-
-    bool operator==(const Detail&) const = default;
-    /// Whether it is the field itself.
-    bool isWhole() const { return level == 0 && parts == glm::ivec3(1); }
-};
-
-/// A field at a level of detail, or divided into parts; empty for the field itself.
-vdb::Volume atDetail(const vdb::Volume& field, const Detail& detail) {
-    if (detail.level > 0) return cloud::coarsened(field, detail.level);
-    return detail.isWhole() ? vdb::Volume{} : cloud::refined(field, detail.parts);
-}
-
-vdb::Affine atDetail(const vdb::Affine& place, const Detail& detail) {
-    return detail.level > 0 ? cloud::coarsened(place, detail.level) : cloud::refined(place, detail.parts);
-}
-
-/// Instances that share an asset.
-struct Group {
-    const vdb::Volume* volume;
-    glm::dmat3 shape;
-    Detail detail;
-    std::vector<std::size_t> instances;
-};
-
 /// Sizes in the picture [pixels] that take the same number of collectors differ by this factor at most.
 constexpr double sameSize = 1.5;
 
@@ -131,11 +98,6 @@ Detail detailFor(double voxel, const glm::ivec3& size) {
     return {cloud::levelOfDetail(glm::compMax(size), voxel), cloud::collectorsFor(rounded)};
 }
 
-double reducedExtinction(const phase::ScatteringMedium& medium, int bands) {
-    const double forward = bands > 1 ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
-    return medium.extinction * static_cast<double>(medium.tables.scatterFraction) * (1.0 - forward);
-}
-
 /// Lowers the collectors of several clouds to what the scene's photon map has room for.
 void fitCollectors(const gpu::Context& context, const scene::Scene& scene, const WorldOptions& options,
                    const World& world, std::vector<Group>& groups) {
@@ -153,69 +115,6 @@ void fitCollectors(const gpu::Context& context, const scene::Scene& scene, const
     for (Group& group : groups)
         group.detail.collectors = std::max(std::min(fewest, group.detail.collectors),
                                            static_cast<int>(room / wanted * group.detail.collectors));
-}
-
-AssetSummary summaryOf(const cloud::Asset& asset, const Group& group) {
-    const cloud::PreparationTimes& t = asset.times;
-    return {{asset.size.x, asset.size.y, asset.size.z},
-            group.detail.level,
-            asset.collectors.size(),
-            group.instances.size(),
-            t.upload,
-            t.majorants,
-            t.sampling,
-            t.tree,
-            t.collectors};
-}
-
-/// Makes the asset of a group, and gives it to its instances.
-void prepareGroup(gpu::Context& context, const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& placed,
-                  const std::shared_ptr<const gpu::Image>& pool, const Group& group, const WorldOptions& options,
-                  World& world, WorldReport& report) {
-    options.report("preparing the cloud", 0, 1);
-    const std::size_t first = group.instances.front();
-    const vdb::Volume other = atDetail(*group.volume, group.detail);
-    const vdb::PlacedVolume field = group.detail.isWhole()
-                                        ? placed[first]
-                                        : vdb::PlacedVolume(other, atDetail(placed[first].toWorld, group.detail));
-    const double thinner = static_cast<double>(field.volume->maximum) / static_cast<double>(group.volume->maximum);
-    cloud::PrepareOptions wanted;
-    wanted.preparation = scene.preparation;
-    wanted.majorant = world.photonMap.majorant;
-    wanted.keepBlocks = placed.size() > 1 || options.keepRing;  // who keeps a ring may get more clouds
-    wanted.check = options.check;
-    const bool fewer = group.detail.collectors < scene.preparation.maxLeaves;
-    if (fewer) {
-        wanted.preparation.maxLeaves = group.detail.collectors;
-        wanted.preparation.samples = std::min(wanted.preparation.samples, samplesOfLeaf * group.detail.collectors);
-    }
-    // Leaves are split until they are optically thin. An asset knows its own size, so that what counts for an
-    // instance is its extinction times how much larger it is.
-    for (const std::size_t i : group.instances) {
-        cloud::Instance& instance = world.instances[i];
-        if (!group.detail.isWhole()) {
-            instance.medium.extinction *= thinner;
-            instance.voxelToMetres = atDetail({instance.voxelToMetres, instance.origin}, group.detail).linear;
-        }
-        if (group.detail.parts != glm::ivec3(1))  // the box of the same density by smaller voxels
-            instance.bounds = boundsOf(vdb::PlacedVolume(other, {instance.voxelToMetres, instance.origin}));
-        const double larger = i == first ? 1.0 : edgeOf(instance.voxelToMetres) / edgeOf(field.toWorld.linear);
-        wanted.reducedExtinction =
-            std::max(wanted.reducedExtinction, larger * reducedExtinction(instance.medium, world.photonMap.bands));
-    }
-    world.assets.push_back(std::make_shared<const cloud::Asset>(
-        pool ? cloud::prepareBricks(context, *field.bricks, field.toWorld, pool, wanted)
-             : cloud::prepare(context, field, wanted)));
-    const cloud::Asset* const asset = world.assets.back().get();
-    for (const std::size_t i : group.instances) world.instances[i].asset = asset;
-    report.assets.push_back(summaryOf(*asset, group));
-    if (asset->tree.limited && !fewer)
-        report.warnings.push_back("samples of the gradient asked for more than " +
-                                  std::to_string(scene.preparation.maxLeaves) +
-                                  " collectors: light is smeared in those that stay too large; raise "
-                                  "preparation.max_leaves or lower preparation.samples");
-    options.check();
-    options.report("preparing the cloud", 1, 1);
 }
 
 /// The scene's, but where voxels of a cloud are flat and so thick that they are divided.
@@ -257,9 +156,10 @@ Bounds movedBounds(const Bounds& bounds, const vdb::Affine& from, const vdb::Aff
     return result;
 }
 
-void prepareAssets(gpu::Context& context, const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& placed,
+void prepareAssets(gpu::Context& context, const scene::Scene& scene, const CloudVolumes& volumes,
                    const std::shared_ptr<const gpu::Image>& pool, const WorldOptions& options, World& world,
                    WorldReport& report) {
+    const std::vector<vdb::PlacedVolume> placed = volumes.placed();
     std::vector<Group> groups;
     world.photonMap = photonMapFor(scene, placed);
     MediumMaker media(world.photonMap, world.lights.sun);
@@ -300,7 +200,7 @@ void prepareAssets(gpu::Context& context, const scene::Scene& scene, const std::
             same->instances.push_back(i);
     }
     if (visible.size() > 1) fitCollectors(context, scene, options, world, groups);
-    for (const Group& group : groups) prepareGroup(context, scene, placed, pool, group, options, world, report);
+    AssetMaker(context, scene, volumes, pool, options, world, report).make(groups);
 }
 
 }  // namespace lumulus

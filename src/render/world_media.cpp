@@ -66,7 +66,7 @@ query::Media mediaWith(gpu::Context& context, World& world, const Check& check, 
     Pools pools;
     for (const std::size_t i : world.visible()) {
         const cloud::Instance& instance = world.instances[i];
-        std::shared_ptr<const query::BrickField>& field = world.fields[instance.asset];
+        std::shared_ptr<const query::BrickField>& field = (*world.fields)[instance.asset];
         if (!field) field = std::make_shared<const query::BrickField>(readBack(context, *instance.asset, pools, check));
         placed.push_back(
             {field, instance.voxelToMetres, instance.origin + instance.offset, extinctionOf(instance.medium)});

@@ -4,6 +4,8 @@
 #include <glm/glm.hpp>
 #include <string>
 
+#include "scene/wind.h"
+
 /// A procedural field of clouds (docs/fields.md).
 namespace lumulus::scene {
 
@@ -22,7 +24,7 @@ struct Field {
     int variants = 6;                  ///< density fields that the clouds share
     int resolution = 128;              ///< voxels along the longest side of a variant
     std::uint64_t seed = 1;
-    glm::dvec3 wind{0.0};      ///< velocity of the field, m/s
+    Wind wind;                 ///< with which its clouds drift, each by the middle of its height
     double extinction = 0.08;  ///< 1/m at density 1
     glm::dvec3 albedo{1.0};
 

@@ -53,9 +53,13 @@ std::vector<Key> cloudsOfFieldKeys() {
                 [](Draft& d, const Value& v) { fieldOf(d).resolution = static_cast<int>(v.integer); }),
         integer("field.seed", seeds, "1", "Seed of shapes and places.",
                 [](Draft& d, const Value& v) { fieldOf(d).seed = static_cast<std::uint64_t>(v.integer); }),
-        other("field.wind", Type::vector, "[0.0, 0.0, 0.0]",
-              "Wind in m/s. Fibres of cirrus and rows of clouds lie along it; without wind fibres lie along x.",
-              [](Draft& d, const Value& v) { fieldOf(d).wind = v.vector; }),
+        other(
+            "field.wind", Type::wind, "[0.0, 0.0, 0.0]",
+            "Wind in m/s, or rows of a height in metres and the wind there, lowest first: linear between them, "
+            "constant "
+            "beyond. It carries each cloud by the middle of its height. Fibres of cirrus and rows of clouds lie along "
+            "that at `base`; without wind fibres lie along x.",
+            [](Draft& d, const Value& v) { fieldOf(d).wind = v.wind; }),
         number("field.extinction", coefficients, "0.08", "Extinction at density 1, 1/m.",
                [](Draft& d, const Value& v) { fieldOf(d).extinction = v.number; }),
         rgb("field.albedo", unit, "1.0", "Single-scattering albedo of the clouds.",

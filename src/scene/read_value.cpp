@@ -66,6 +66,32 @@ struct Reader {
         return {number(*array->get(0)), number(*array->get(1)), number(*array->get(2))};
     }
 
+    /// One velocity, or rows of a height and the velocity there.
+    Wind wind(const toml::node& node) const {
+        const auto* rows = node.as_array();
+        if (rows == nullptr || rows->empty() || !rows->get(0)->is_array()) return vector(node);
+        if (rows->size() > Wind::mostLevels)
+            throw InputError(fmt::format("{} has {} rows, more than {}", shortName(), rows->size(), Wind::mostLevels),
+                             where, "leave rows out: it is linear between them");
+        Wind wind;
+        wind.levels.clear();
+        for (const toml::node& each : *rows) {
+            const auto* row = each.as_array();
+            const std::size_t place = wind.levels.size() + 1;
+            if (row == nullptr || row->size() != 4)
+                throw InputError(fmt::format("{} must be {}, got {} as row {}", shortName(), typeText(key),
+                                             nodeTypeText(each), place),
+                                 where, mend());
+            const double height = number(*row->get(0));
+            if (!wind.levels.empty() && height <= wind.levels.back().height)
+                throw InputError(fmt::format("the heights of {} must rise, got {} behind {} in row {}", shortName(),
+                                             height, wind.levels.back().height, place),
+                                 where, "put the rows in the order of their heights");
+            wind.levels.push_back({height, {number(*row->get(1)), number(*row->get(2)), number(*row->get(3))}});
+        }
+        return wind;
+    }
+
     glm::dvec3 pair(const toml::node& node) const {
         const auto* array = node.as_array();
         if (array == nullptr || array->size() != 2) wrongType(node);
@@ -181,6 +207,9 @@ Value readValue(const toml::node& node, const Key& key, const std::string& where
             break;
         case Type::vector:
             value.vector = reader.vector(node);
+            break;
+        case Type::wind:
+            value.wind = reader.wind(node);
             break;
         case Type::pair:
             value.vector = reader.pair(node);

@@ -14,6 +14,7 @@
 #include "scene/sky.h"
 #include "scene/surface.h"
 #include "scene/voxels.h"
+#include "scene/wind.h"
 
 /// The scene as values: the keys of the file, with every default filled in and every value checked.
 /// Units: metres, degrees (angles of the file), W·m⁻² and W·m⁻²·sr⁻¹ per channel, 1/m.
@@ -94,7 +95,7 @@ struct Cloud {
     std::string grid;                      ///< any case, `density[1]` for the second; empty: chosen by the names of all
     FileSequence sequence;                 ///< where the file's name has a place for a number
     std::optional<SequenceMoment> moment;  ///< of a sequence: what of it is shown
-    std::optional<glm::dvec3> velocity;    ///< of what is in the files, where they do not tell [m/s]
+    std::optional<Wind> velocity;          ///< of what is in the files, where they do not tell; by their own heights
     std::string held;                      ///< the file that is missing, where the one before it stands for it
     bool clamp = false;                    ///< values of the grid that are no densities become 0
     std::string procedural = "cumulus";

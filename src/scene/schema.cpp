@@ -44,6 +44,8 @@ std::string typeText(const Key& key) {
             return "true or false";
         case Type::vector:
             return "[x, y, z]";
+        case Type::wind:
+            return "[x, y, z], or rows of [height, x, y, z]";
         case Type::pair:
             return "[first, last]";
         case Type::rgb:

@@ -14,7 +14,7 @@
 
 namespace lumulus::scene {
 
-enum class Type { number, integer, boolean, vector, pair, rgb, matrix, text, path, time, choice };
+enum class Type { number, integer, boolean, vector, wind, pair, rgb, matrix, text, path, time, choice };
 
 /// The range of a number, or of each component of a vector. NaN and infinity are always outside.
 struct Range {
@@ -34,6 +34,7 @@ struct Value {
     bool boolean = false;
     glm::dvec3 vector{0.0};  ///< also RGB; x and y of a pair
     glm::dmat4 matrix{1.0};
+    Wind wind;
     std::string text;        ///< also a choice or a time
     std::size_t choice = 0;  ///< index into the choices of the key
 };

@@ -34,10 +34,11 @@ std::vector<Key> sequenceKeys() {
                "`velocity` or `v` of the files, else by `velocity`; without either they are blended), or the nearest "
                "one.",
                [](Draft& d, const Value& v) { sequenceOf(d).interpolate = v.choice == 0; }),
-        other("cloud.velocity", Type::vector, "(that of the files)",
-              "Velocity of what is in the files, before `transform` [m/s]. Files with a grid of velocities have their "
-              "own.",
-              [](Draft& d, const Value& v) { d.scene.clouds.at(d.entry).velocity = v.vector; }),
+        other(
+            "cloud.velocity", Type::wind, "(that of the files)",
+            "Velocity of what is in the files, before `transform` [m/s], or rows of a height in the files' own "
+            "coordinates and the velocity there, as for `field.wind`. Files with a grid of velocities have their own.",
+            [](Draft& d, const Value& v) { d.scene.clouds.at(d.entry).velocity = v.wind; }),
         choice("cloud.missing", {"error", "hold"}, "\"error\"",
                "What a file is that is missing: an error with its number, or the one before it, with a warning.",
                [](Draft& d, const Value& v) { sequenceOf(d).holdMissing = v.choice == 1; })};

@@ -134,6 +134,9 @@ void Settings::addOverride(std::string_view text) {
 
 void Settings::addAnimation(const Animation& animation, double frame) {
     for (const AnimatedKey& key : animation.keys()) {
+        if (key.path.starts_with("field.") && key.path.ends_with(".wind"))
+            throw InputError("wind cannot change from frame to frame: it has carried clouds since frame 0", key.where,
+                             "give it in [[field]], as a velocity or by height");
         try {
             addOverride(key.path + "=" + key.valueAt(frame));
         } catch (const UnknownKey& e) {

@@ -2,17 +2,18 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "scene/ephemeris.h"
 
 namespace lumulus::sky {
 
 Environment::Environment(const scene::Sky& sky, const std::optional<scene::Ground>& ground, double angularDiameter,
-                         const std::optional<scene::Sun>& moon)
+                         const std::optional<scene::Sun>& moon, std::shared_ptr<const Atmosphere> air)
     : radiance_(sky.model == scene::SkyModel::constant ? sky.radiance : glm::dvec3(0.0)) {
     if (sky.model == scene::SkyModel::map) map_ = std::make_shared<const MapSky>(sky);
     if (sky.model == scene::SkyModel::atmosphere)
-        atmosphere_ = std::make_shared<const Atmosphere>(sky, ground, angularDiameter);
+        atmosphere_ = air ? std::move(air) : std::make_shared<const Atmosphere>(sky, ground, angularDiameter);
     if (atmosphere_) moon_ = moon;
 }
 

@@ -30,12 +30,14 @@ struct AerialPerspective {
 class Environment {
   public:
     /// Makes the tables of an atmosphere, or reads a map. `moon`: a second sun of the atmosphere (moonOf()).
-    /// `angularDiameter`: of the sun, degrees. Errors: those of MapSky.
+    /// `angularDiameter`: of the sun, degrees. `air`: that of an environment of the same sky, ground and diameter;
+    /// null: it is made. Errors: those of MapSky.
     Environment(const scene::Sky& sky, const std::optional<scene::Ground>& ground = {}, double angularDiameter = 0.53,
-                const std::optional<scene::Sun>& moon = {});
+                const std::optional<scene::Sun>& moon = {}, std::shared_ptr<const Atmosphere> air = {});
 
     /// The air, or null where there is none.
     const Atmosphere* atmosphere() const { return atmosphere_.get(); }
+    std::shared_ptr<const Atmosphere> sharedAir() const { return atmosphere_; }
     /// The map, or null where the sky is none.
     const MapSky* map() const { return map_.get(); }
     /// The moon of an atmosphere, where it shines; its irradiance counts above the air.

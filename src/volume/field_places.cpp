@@ -51,7 +51,8 @@ class Placer {
         constexpr double mostPoints = 4e6, pointsAcross = 8.0;
         const double typical = field.kind == scene::FieldKind::stratocumulus ? cellDiameter() : field.smallest;
         spacing_ = std::max(typical / pointsAcross, std::sqrt(extent_.x * extent_.y / mostPoints));
-        const glm::dvec2 wind(field.wind.x, field.wind.z);
+        const glm::dvec3 velocity = field.wind.at(field.base);
+        const glm::dvec2 wind(velocity.x, velocity.z);
         along_ = glm::length(wind) > 0.0 ? glm::normalize(wind) : glm::dvec2(1.0, 0.0);
         windy_ = glm::length(wind) > 0.0;
     }
@@ -276,7 +277,8 @@ std::vector<FieldPlace> Placer::finished(const Pass& pass) const {
     std::vector<FieldPlace> places;
     for (const Cloud& cloud : pass.clouds) {
         const glm::dvec3 position(field_.center.x + cloud.middle.x, field_.base, field_.center.z + cloud.middle.y);
-        places.push_back({cloud.variant, {position, cloud.angle * 180.0 / pi, scaleOf(cloud), 1.0}});
+        const double scale = scaleOf(cloud), top = scale * footprints_[static_cast<std::size_t>(cloud.variant)].top();
+        places.push_back({cloud.variant, {position, cloud.angle * 180.0 / pi, scale, 1.0}, field_.base + 0.5 * top});
     }
     return places;
 }

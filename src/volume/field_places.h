@@ -14,6 +14,7 @@ namespace lumulus {
 struct FieldPlace {
     int variant = 0;
     scene::Place place;
+    double middle = 0.0;  ///< height of the middle between its base and its top [m]
 };
 
 /// The procedural cloud that a field is made of.

@@ -16,7 +16,13 @@ Footprint::Footprint(const std::string& kind, std::uint64_t seed, int resolution
     for (int z = 0; z < cloud.size.z; ++z) {
         for (int x = 0; x < cloud.size.x; ++x) {
             double sum = 0.0;
-            for (int y = 0; y < cloud.size.y; ++y) sum += static_cast<double>(cloud.density[cloud.index(x, y, z)]);
+            int top = 0;
+            for (int y = 0; y < cloud.size.y; ++y) {
+                const auto density = static_cast<double>(cloud.density[cloud.index(x, y, z)]);
+                sum += density;
+                if (density > 0.0) top = y + 1;
+            }
+            top_ = std::max(top_, cloud.toWorld.translation.y + top * voxel.y);
             columns_.push_back(static_cast<float>(sum * voxel.y));
         }
     }

@@ -19,6 +19,9 @@ class Footprint {
     /// Area in m² where the column exceeds `threshold` metres.
     double area(double threshold) const;
 
+    /// Height of the highest voxel with density above the base [m].
+    double top() const { return top_; }
+
     /// Metres from the origin to the farthest corner of the box.
     double reach() const { return glm::length(glm::max(glm::abs(low_), glm::abs(low_ + cell_ * glm::dvec2(size_)))); }
 
@@ -26,6 +29,7 @@ class Footprint {
     glm::ivec2 size_{0};
     glm::dvec2 low_{0.0}, cell_{1.0};  ///< metres, along x and z
     std::vector<float> columns_;
+    double top_ = 0.0;
 };
 
 /// Which part of a rectangle is covered, on a grid of points.

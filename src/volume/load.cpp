@@ -9,6 +9,7 @@
 #include "vdb/procedural.h"
 #include "vdb/transform.h"
 #include "volume/between_files.h"
+#include "volume/known_fields.h"
 #include "volume/load_bricks.h"
 #include "volume/source.h"
 #include "volume/summary.h"
@@ -63,13 +64,36 @@ double evenShare(std::vector<double> wanted, double budget) {
     return left > 0.0 ? std::max(budget, 0.0) / left : budget;
 }
 
+bool isKnown(const KnownField& field, const Source& source) {
+    return field.index == source.index && sourceOf(field.cloud) == sourceOf(*source.cloud);
+}
+
+/// Loads the dense field of a source, or takes one that is known.
+void fill(Source& source, double budget, const Report& report, const vdb::ReadLimits& limits,
+          const KnownFields* known) {
+    source.budget = budget;
+    if (known != nullptr)
+        for (const KnownField& field : known->fields) {
+            if (field.budget != budget || !isKnown(field, source)) continue;
+            source.loaded = field.loaded;
+            source.volume = field.volume;
+            source.sums = field.sums;
+            return;
+        }
+    source.volume.reset();
+    source.loaded = load(*source.cloud, source.index, budget, report, limits);
+    source.volume = std::make_shared<const vdb::Volume>(std::move(source.loaded.volume));
+    source.loaded.volume = {};
+}
+
 /// Loads all sources. Only so much is held at a time as the budget and one more field take.
-void loadAll(std::vector<Source>& sources, double budget, const Report& report, const vdb::ReadLimits& limits) {
+void loadAll(std::vector<Source>& sources, double budget, const Report& report, const vdb::ReadLimits& limits,
+             const KnownFields* known) {
     double held = 0.0, total = 0.0, left = budget;
     std::vector<double> wanted;
     for (Source& source : sources) {
-        source.loaded = load(*source.cloud, source.index, budget, report, limits);
-        const double size = sizeOf(source.loaded.volume);
+        fill(source, budget, report, limits, known);
+        const double size = sizeOf(*source.volume);
         total += source.loaded.wantedMiB;
         if (source.isFile()) {
             wanted.push_back(source.loaded.wantedMiB);
@@ -77,16 +101,14 @@ void loadAll(std::vector<Source>& sources, double budget, const Report& report, 
             left -= source.loaded.wantedMiB;
         }
         const bool drop = source.isFile() && sources.size() > 1 && held + size > budget;
-        if (drop) source.loaded.volume.density = {};
+        if (drop) source.volume.reset();
         held += drop ? 0.0 : size;
     }
     if (sources.size() < 2 || total <= budget) return;
     const double share = evenShare(std::move(wanted), left);
     for (Source& source : sources) {
-        const bool dropped = source.loaded.volume.density.empty();
-        if (!source.isFile() || (!dropped && sizeOf(source.loaded.volume) <= share)) continue;
-        source.loaded.volume.density = {};
-        source.loaded = load(*source.cloud, source.index, share, report, limits);
+        if (!source.isFile() || (source.volume && sizeOf(*source.volume) <= share)) continue;
+        fill(source, share, report, limits, known);
     }
 }
 
@@ -104,9 +126,24 @@ std::vector<Source> differentSources(const std::vector<scene::Cloud>& clouds, st
         const auto same = std::ranges::find_if(
             sources, [&](const Source& source) { return sourceOf(*source.cloud) == sourceOf(clouds[i]); });
         volumeOf.push_back(static_cast<std::size_t>(same - sources.begin()));
-        if (same == sources.end()) sources.push_back({&clouds[i], i, {}, {}});
+        if (same == sources.end()) sources.push_back({&clouds[i], i, {}, {}, {}, 0.0, {}});
     }
     return sources;
+}
+
+/// Drops the fields that no source asks for.
+void dropOthers(KnownFields& known, const std::vector<Source>& sources) {
+    std::erase_if(known.fields, [&](const KnownField& field) {
+        return std::ranges::none_of(sources, [&](const Source& source) { return isKnown(field, source); });
+    });
+}
+
+KnownFields fieldsOf(const std::vector<Source>& sources, const std::vector<vdb::ColumnSums>& sums) {
+    KnownFields known;
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        known.fields.push_back(
+            {*sources[i].cloud, sources[i].index, sources[i].budget, sources[i].loaded, sources[i].volume, sums[i]});
+    return known;
 }
 
 }  // namespace
@@ -114,13 +151,14 @@ std::vector<Source> differentSources(const std::vector<scene::Cloud>& clouds, st
 std::vector<vdb::PlacedVolume> CloudVolumes::placed() const {
     std::vector<vdb::PlacedVolume> result;
     for (const Cloud& cloud : clouds) {
-        vdb::PlacedVolume& placed = result.emplace_back(volumes[cloud.volume], cloud.toWorld);
+        vdb::PlacedVolume& placed = result.emplace_back(*volumes[cloud.volume], cloud.toWorld);
         if (isSparse()) placed.bricks = &bricks[cloud.volume];
     }
     return result;
 }
 
-CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const Check& check, FieldStorage storage) {
+CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const Check& check, FieldStorage storage,
+                        KnownFields* known) {
     constexpr double treesPerBudget = 8.0;
     const double budget = scene.preparation.memoryBudget;
     const vdb::ReadLimits limits{check, treesPerBudget * budget};
@@ -132,9 +170,10 @@ CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const C
             if (source.isFile())
                 readBricks(source, report, limits);
             else
-                source.loaded = load(*source.cloud, source.index, budget, report, limits);
+                fill(source, budget, report, limits, nullptr);
     } else {
-        loadAll(sources, budget, report, limits);
+        if (known != nullptr) dropOthers(*known, sources);
+        loadAll(sources, budget, report, limits, known);
     }
     CloudVolumes result;
     for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
@@ -146,13 +185,16 @@ CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const C
             const bool alone = scene.clouds.size() == 1;
             result.warnings.push_back(alone ? warning : keysOf(scene, source.index) + ": " + warning);
         }
-        result.volumes.push_back(std::move(source.loaded.volume));
+        result.volumes.push_back(source.volume);
         if (sparse) result.bricks.push_back(std::move(source.bricks));
     }
     if (sparse) layBricks(scene, result, check);
     std::vector<vdb::ColumnSums> sums;
     for (std::size_t i = 0; i < sources.size(); ++i)
-        sums.push_back(sparse ? vdb::columnSums(result.bricks[i]) : vdb::columnSums(result.volumes[i], check));
+        sums.push_back(sparse            ? vdb::columnSums(result.bricks[i])
+                       : sources[i].sums ? *sources[i].sums
+                                         : vdb::columnSums(*result.volumes[i], check));
+    if (known != nullptr) *known = sparse ? KnownFields() : fieldsOf(sources, sums);
     for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
         CloudVolumes::Cloud& cloud = result.clouds[i];
         const double extinction = scene.clouds[i].extinction * scene.clouds[i].densityScale;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,8 @@
 
 namespace lumulus {
 
+struct KnownFields;
+
 /// The density fields of a scene's clouds. Clouds of the same source (file and grid, or kind, resolution and seed)
 /// share one field, which is loaded once; each cloud has a place of its own.
 struct CloudVolumes {
@@ -23,7 +26,8 @@ struct CloudVolumes {
         vdb::OpticalThickness thickness;
     };
 
-    std::vector<vdb::Volume> volumes;       ///< at their own places, without the scene's `transform`
+    /// At their own places, without the scene's `transform`. One that another scene shows too is the same.
+    std::vector<std::shared_ptr<const vdb::Volume>> volumes;
     std::vector<vdb::SparseVolume> bricks;  ///< as many, laid out, where the fields are in bricks, else none
     std::vector<Cloud> clouds;              ///< as many as the scene has, in its order
     std::vector<std::string> warnings;      ///< what a person should know, one line each
@@ -45,7 +49,11 @@ enum class FieldStorage { dense, asWanted };
 ///
 /// Fields in bricks are not averaged: what does not fit the budget (pool, indices, majorants) has coarser levels where
 /// the scene's camera sees voxels smallest. Values of files come later, leaf by leaf (vdb::fillSlots).
+///
+/// Dense fields that are `known` from another scene are taken from there: they are what loading gives, as long as files
+/// stay as they are. It has those of this scene then, and drops others before any is loaded.
 CloudVolumes loadClouds(const scene::Scene& scene, const Report& report = noReport,
-                        const Check& check = stopIfInterrupted, FieldStorage storage = FieldStorage::dense);
+                        const Check& check = stopIfInterrupted, FieldStorage storage = FieldStorage::dense,
+                        KnownFields* known = nullptr);
 
 }  // namespace lumulus

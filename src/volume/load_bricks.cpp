@@ -157,11 +157,12 @@ void readBricks(Source& source, const Report& report, const vdb::ReadLimits& lim
     report("loading the cloud", 0, 1);
     vdb::SparseResult result = vdb::loadSparse(source.cloud->vdb, optionsOf(source, limits));
     source.bricks = std::move(result.volume);
-    vdb::Volume& volume = source.loaded.volume;
+    vdb::Volume volume;
     volume.size = source.bricks.size;
     volume.maximum = source.bricks.maximum;
     volume.toWorld = source.bricks.toWorld;
     volume.name = source.bricks.name;
+    source.volume = std::make_shared<const vdb::Volume>(std::move(volume));
     source.loaded.gridToWorld = result.gridToWorld;
     source.loaded.voxelToGrid = result.voxelToGrid;
     source.loaded.warnings = std::move(result.warnings);
@@ -171,7 +172,7 @@ void readBricks(Source& source, const Report& report, const vdb::ReadLimits& lim
 void layBricks(const scene::Scene& scene, CloudVolumes& volumes, const Check& check) {
     for (std::size_t i = 0; i < volumes.bricks.size(); ++i) {
         vdb::SparseVolume& bricks = volumes.bricks[i];
-        const vdb::Volume& volume = volumes.volumes[i];
+        const vdb::Volume& volume = *volumes.volumes[i];
         if (!volume.density.empty()) {  // a procedural cloud
             bricks.size = volume.size;
             bricks.maximum = volume.maximum;

@@ -5,10 +5,11 @@
 namespace lumulus {
 
 CloudVelocity::CloudVelocity(const scene::Cloud& cloud, const vdb::VoxelBox& density, const vdb::ReadLimits& limits)
-    : field_(vdb::VelocityField::read(cloud.vdb, density, limits)), constant_(cloud.velocity) {}
+    : field_(vdb::VelocityField::read(cloud.vdb, density, limits)), told_(cloud.velocity) {}
 
 glm::dvec3 CloudVelocity::at(const glm::dvec3& place) const {
-    return field_ ? field_->at(place) : constant_.value_or(glm::dvec3(0.0));
+    if (field_) return field_->at(place);
+    return told_ ? told_->at(place.y) : glm::dvec3(0.0);
 }
 
 glm::dvec3 CloudVelocity::carried(const glm::dvec3& place, double seconds) const {

@@ -17,7 +17,7 @@ class CloudVelocity {
     /// `density`: of the file, where it has its own place. Errors: those of vdb::VelocityField::read().
     CloudVelocity(const scene::Cloud& cloud, const vdb::VoxelBox& density, const vdb::ReadLimits& limits);
 
-    bool isKnown() const { return field_ || constant_; }
+    bool isKnown() const { return field_ || told_; }
     /// At a place in the file's own coordinates [m/s].
     glm::dvec3 at(const glm::dvec3& place) const;
     /// Where what is at a place was or will be after these seconds: half a step to its middle, then a whole one.
@@ -25,7 +25,7 @@ class CloudVelocity {
 
   private:
     std::optional<vdb::VelocityField> field_;
-    std::optional<glm::dvec3> constant_;
+    std::optional<scene::Wind> told_;  ///< by the scene
 };
 
 /// How what is in a cloud has moved from one frame to another.

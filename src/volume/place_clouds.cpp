@@ -41,9 +41,9 @@ void addInstances(std::vector<scene::Cloud>& placed, const scene::Cloud& cloud, 
 }
 
 void addField(std::vector<scene::Cloud>& placed, const scene::Field& field, const std::string& name,
-              const scene::Scene& scene) {
+              const scene::Scene& scene, KnownPlaces& known) {
     const std::size_t room = mostInstances(scene) - std::min(mostInstances(scene), placed.size());
-    const std::vector<FieldPlace> places = placesOf(field, name, room);
+    const std::vector<FieldPlace>& places = known.of(field, name, room);
     for (std::size_t i = 0; i < places.size(); ++i) {
         scene::Cloud cloud;
         cloud.name = fmt::format("{}[{}]", name, i);
@@ -51,7 +51,7 @@ void addField(std::vector<scene::Cloud>& placed, const scene::Field& field, cons
         cloud.resolution = field.resolution;
         cloud.seed = variantSeed(field, places[i].variant);
         cloud.transform = places[i].place.transform();
-        cloud.transform[3] += glm::dvec4(scene.seconds * field.wind, 0.0);
+        cloud.transform[3] += glm::dvec4(scene.seconds * field.wind.at(places[i].middle), 0.0);
         cloud.extinction = field.extinction * places[i].place.extinction;
         cloud.albedo = field.albedo;
         placed.push_back(std::move(cloud));
@@ -64,11 +64,26 @@ std::size_t mostInstances(const scene::Scene& scene) {
     return static_cast<std::size_t>(std::ldexp(scene.photonMap.memoryBudget, 20) / bytesEach(scene));
 }
 
-scene::Scene placeClouds(scene::Scene scene) {
+const std::vector<FieldPlace>& KnownPlaces::of(const scene::Field& field, const std::string& name, std::size_t most) {
+    std::erase_if(known_, [this](const Known& each) { return each.scene + 1 < scene_; });
+    auto found =
+        std::ranges::find_if(known_, [&](const Known& each) { return each.most == most && each.field == field; });
+    if (found == known_.end()) {
+        known_.push_back({field, most, scene_, placesOf(field, name, most)});
+        found = known_.end() - 1;
+    }
+    found->scene = scene_;
+    return found->places;
+}
+
+scene::Scene placeClouds(scene::Scene scene, KnownPlaces* known) {
     const bool single = scene.fields.empty() && std::ranges::all_of(scene.clouds, [](const scene::Cloud& cloud) {
                             return cloud.instances.empty();
                         });
     if (single) return scene;
+    KnownPlaces ofThis;
+    KnownPlaces& places = known != nullptr ? *known : ofThis;
+    places.beginScene();
     std::vector<scene::Cloud> placed;
     for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
         const std::string name = scene::nameOf(scene, i);
@@ -81,7 +96,7 @@ scene::Scene placeClouds(scene::Scene scene) {
     }
     for (std::size_t i = 0; i < scene.fields.size(); ++i) {
         const std::string& name = scene.fields[i].name;
-        addField(placed, scene.fields[i], name.empty() ? fmt::format("field{}", i) : name, scene);
+        addField(placed, scene.fields[i], name.empty() ? fmt::format("field{}", i) : name, scene, places);
     }
     scene.clouds = std::move(placed);
     scene.fields.clear();

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
 
 #include "scene/scene.h"
 #include "vdb/load.h"
+#include "vdb/optical_thickness.h"
 #include "vdb/sparse_volume.h"
 #include "vdb/transform.h"
 
@@ -21,15 +23,18 @@ inline auto sourceOf(const scene::Cloud& cloud) {
     return std::tuple(cloud.voxels, file ? cloud.vdb : std::filesystem::path(), file ? cloud.grid : std::string(),
                       made ? cloud.procedural : std::string(), made ? cloud.resolution : 0, made ? cloud.seed : 0,
                       !made && cloud.clamp, between ? cloud.moment->file : 0.0,
-                      between ? cloud.velocity : std::nullopt);
+                      between ? cloud.velocity : std::optional<scene::Wind>());
 }
 
 /// A field as its source gives it, and how far its memory can be told.
 struct Source {
-    const scene::Cloud* cloud;  ///< the first one of this source
-    std::size_t index;          ///< of that cloud in the scene
-    vdb::LoadResult loaded;
-    vdb::SparseVolume bricks;  ///< of a file whose field is in bricks; `loaded` has no values then
+    const scene::Cloud* cloud;                  ///< the first one of this source
+    std::size_t index;                          ///< of that cloud in the scene
+    vdb::LoadResult loaded;                     ///< but for the volume
+    std::shared_ptr<const vdb::Volume> volume;  ///< of a field in bricks without values
+    std::optional<vdb::ColumnSums> sums;        ///< where they are known
+    double budget = 0.0;                        ///< within which it was loaded [MiB]
+    vdb::SparseVolume bricks;                   ///< of a file whose field is in bricks
 
     /// Between two files of a sequence: made of both, in voxels.
     bool isBetween() const { return cloud->moment && !cloud->moment->next.empty(); }

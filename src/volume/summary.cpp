@@ -40,7 +40,7 @@ std::vector<CloudSummary> summarise(const scene::Scene& scene, const CloudVolume
         const CloudVolumes::Cloud& cloud = volumes.clouds[i];
         clouds.push_back({scene::nameOf(scene, i),
                           scene.clouds[i].voxels ? scene.clouds[i].voxels->name : scene.clouds[i].vdb.string(),
-                          volumes.volumes[cloud.volume].name,
+                          volumes.volumes[cloud.volume]->name,
                           cloud.thickness.largestOfAll(),
                           cloud.thickness.meanOfAll(),
                           {}});

@@ -43,6 +43,9 @@ struct AssetSummary {
     /// Seconds of each part of the preparation: density onto the GPU, majorants with the bounds of the gradient,
     /// samples of the gradient, the kD-tree over them, and collectors with the leaf of each voxel.
     double upload = 0.0, majorants = 0.0, sampling = 0.0, tree = 0.0, collecting = 0.0;
+
+    /// The same of one that was made before.
+    AssetSummary withoutTimes() const { return {voxels, level, collectors, instances}; }
 };
 
 /// A function that is told of a scene's clouds as soon as they are loaded, with what is warned of by then.

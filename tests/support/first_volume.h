@@ -10,7 +10,7 @@ namespace lumulus::test {
 inline vdb::Volume firstVolume(const scene::Scene& scene) {
     CloudVolumes clouds = loadClouds(scene);
     const CloudVolumes::Cloud& first = clouds.clouds.at(0);
-    vdb::Volume volume = std::move(clouds.volumes.at(first.volume));
+    vdb::Volume volume = *clouds.volumes.at(first.volume);
     volume.toWorld = first.toWorld;
     return volume;
 }

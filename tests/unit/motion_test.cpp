@@ -56,7 +56,7 @@ class Motion : public testing::Test {
     static vdb::Volume loaded(const scene::Cloud& cloud) {
         scene::Scene scene;
         scene.clouds = {cloud};
-        return std::move(loadClouds(scene).volumes.front());
+        return *loadClouds(scene).volumes.front();
     }
     /// Greatest difference of densities where `truth` has its voxels.
     static double difference(const vdb::Volume& volume, const vdb::Volume& truth) {
@@ -136,6 +136,29 @@ TEST_F(Motion, BetweenTwoFilesDensitiesAreCarried) {
     const vdb::Volume still = ball();
     EXPECT_NEAR(shown.density[shown.index(at.x, at.y, at.z)],
                 0.75F * still.density[still.index(13, 12, 11)] + 0.25F * still.density[still.index(11, 12, 13)], 1e-5F);
+}
+
+/// Velocities by height: each half of a cloud is carried by its own.
+TEST_F(Motion, VelocitiesByHeight) {
+    vdb::Volume halves = ball();
+    const auto fill = [&](int low, int high) {
+        test::fillVolume(halves, [&](const glm::ivec3& v) {
+            const int from = v.y < 12 ? low : high;
+            return v.x >= from && v.x < from + 5 && v.z > 3 && v.z < 18 && v.y != 11 && v.y != 12 ? 1.0 : 0.0;
+        });
+    };
+    fill(4, 4);
+    vdb::write(halves, file(0));
+    fill(6, 14);
+    vdb::write(halves, file(1));
+    fill(5, 9);
+    const double middle = -50.0 + 12.0 * voxel;
+    scene::Cloud told = cloudAt(0.5);
+    told.velocity = scene::Wind();
+    told.velocity->levels = {{middle - 5.0, {2.0 * voxel, 0.0, 0.0}}, {middle + 5.0, {10.0 * voxel, 0.0, 0.0}}};
+    EXPECT_LT(difference(loaded(told), halves), 1e-6);
+    told.velocity = scene::Wind(dvec3(2.0 * voxel, 0.0, 0.0));
+    EXPECT_GT(difference(loaded(told), halves), 0.4);
 }
 
 /// A flow that deforms: nearer to the truth than a blend by an order.

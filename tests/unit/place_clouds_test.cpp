@@ -45,7 +45,8 @@ scene::Scene sceneOf(const scene::Field& field) {
 double coverOf(const scene::Field& field) {
     const CloudVolumes loaded = loadClouds(placeClouds(sceneOf(field)));
     std::vector<std::vector<double>> columns;
-    for (const vdb::Volume& volume : loaded.volumes) {
+    for (const auto& each : loaded.volumes) {
+        const vdb::Volume& volume = *each;
         std::vector<double>& sums = columns.emplace_back(static_cast<std::size_t>(volume.size.x * volume.size.z));
         for (int z = 0; z < volume.size.z; ++z)
             for (int y = 0; y < volume.size.y; ++y)
@@ -61,7 +62,7 @@ double coverOf(const scene::Field& field) {
         double thickness = 0.0;
         for (const CloudVolumes::Cloud& cloud : loaded.clouds) {
             const glm::dvec3 voxel = glm::inverse(cloud.toWorld.linear) * (at - cloud.toWorld.translation);
-            const vdb::Volume& volume = loaded.volumes[cloud.volume];
+            const vdb::Volume& volume = *loaded.volumes[cloud.volume];
             if (voxel.x < 0.0 || voxel.z < 0.0 || voxel.x >= volume.size.x || voxel.z >= volume.size.z) continue;
             const auto place =
                 static_cast<std::size_t>(static_cast<int>(voxel.z) * volume.size.x + static_cast<int>(voxel.x));
@@ -134,11 +135,70 @@ TEST(Fields, NoCloudRepeats) {
 
 TEST(Fields, FibresOfCirrusLieAlongTheWind) {
     scene::Field field = fieldOf(scene::FieldKind::cirrus, 0.3);
-    field.wind = {10.0, 0.0, 10.0};
+    const glm::dvec3 wind(10.0, 0.0, 10.0);
+    field.wind = wind;
     for (const FieldPlace& one : placesOf(field, "field0", 1000)) {
         const glm::dvec3 along(one.place.transform() * glm::dvec4(1.0, 0.0, 0.0, 0.0));
-        EXPECT_GT(glm::dot(glm::normalize(along), glm::normalize(field.wind)), 0.97);
+        EXPECT_GT(glm::dot(glm::normalize(along), glm::normalize(wind)), 0.97);
     }
+}
+
+/// A wind that grows linearly with height carries each cloud as far as the middle of its voxels is high.
+TEST(Fields, DriftWithTheWindAtTheirMiddle) {
+    scene::Field field = fieldOf(scene::FieldKind::cumulus, 0.2);
+    scene::Scene scene = sceneOf(field);
+    constexpr double shear = 0.01, seconds = 600.0;
+    scene.fields[0].wind.levels = {{0.0, glm::dvec3(0.0)}, {4000.0, {4000.0 * shear, 0.0, -2000.0 * shear}}};
+    scene.seconds = seconds;
+    scene::Scene along = scene;  // rows of clouds lie along the wind whenever
+    along.seconds = 0.0;
+    const scene::Scene first = placeClouds(along), moved = placeClouds(scene);
+    const CloudVolumes volumes = loadClouds(first);
+    ASSERT_EQ(moved.clouds.size(), first.clouds.size());
+    double least = 1e9, most = 0.0;
+    for (std::size_t i = 0; i < moved.clouds.size(); ++i) {
+        const glm::dvec3 way(moved.clouds[i].transform[3] - first.clouds[i].transform[3]);
+        const vdb::Volume& volume = *volumes.volumes[volumes.clouds[i].volume];
+        const double voxel = volumes.clouds[i].toWorld.linear[1].y;
+        int top = 0;
+        for (std::size_t at = 0; at < volume.density.size(); ++at)
+            if (volume.density[at] > 0.0F)
+                top = std::max(top, static_cast<int>(at) / volume.size.x % volume.size.y + 1);
+        const double height = volumes.clouds[i].toWorld.point({0.0, top, 0.0}).y;
+        EXPECT_NEAR(way.x / (shear * seconds), 0.5 * (field.base + height), 2.0 * voxel) << i;
+        EXPECT_NEAR(way.z, -0.5 * way.x, 1e-6) << i;
+        EXPECT_EQ(way.y, 0.0);
+        least = std::min(least, way.x), most = std::max(most, way.x);
+    }
+    EXPECT_GT(most - least, 0.1 * shear * seconds * field.largest) << "large clouds reach higher, and move faster";
+}
+
+/// All as one: a constant wind, one level, and heights beyond the last level.
+TEST(Fields, DriftAsOneWhereTheWindIsTheSame) {
+    scene::Scene scene = sceneOf(fieldOf(scene::FieldKind::stratocumulus, 0.5));
+    const glm::dvec3 wind(12.0, 0.5, -3.0);
+    scene.fields[0].wind = wind;
+    const scene::Scene first = placeClouds(scene);
+    scene.seconds = 10.0;
+    const scene::Scene moved = placeClouds(scene);
+    for (std::size_t i = 0; i < moved.clouds.size(); ++i)
+        EXPECT_LT(glm::distance(glm::dvec3(moved.clouds[i].transform[3] - first.clouds[i].transform[3]), 10.0 * wind),
+                  1e-9);
+    scene.fields[0].wind.levels = {{5000.0, wind}};
+    EXPECT_EQ(placeClouds(scene).clouds, moved.clouds);
+    scene.fields[0].wind.levels = {{-100.0, glm::dvec3(1.0)}, {scene.fields[0].base, wind}};
+    EXPECT_EQ(placeClouds(scene).clouds, moved.clouds);
+}
+
+TEST(Fields, KnownPlacesAreThoseOfTheField) {
+    KnownPlaces known;
+    scene::Scene scene = sceneOf(fieldOf(scene::FieldKind::cumulus, 0.2));
+    for (const double seconds : {0.0, 5.0, 10.0})
+        for (const double cover : {0.2, 0.3}) {
+            scene.fields[0].cover = cover;
+            scene.seconds = seconds;
+            EXPECT_EQ(placeClouds(scene, &known), placeClouds(scene)) << seconds << ", " << cover;
+        }
 }
 
 TEST(Fields, AreTheSameEachTimeAndDifferBySeed) {
@@ -194,8 +254,8 @@ TEST_F(Instances, ShareTheFieldAndStandInTheirPlaces) {
     const CloudVolumes loaded = loadClouds(scene);
     ASSERT_EQ(loaded.volumes.size(), 2U);
     EXPECT_EQ(loaded.clouds[0].volume, loaded.clouds[1].volume);
-    const glm::dvec3 middle = 0.5 * glm::dvec3(loaded.volumes[0].size);
-    const glm::dvec3 own = loaded.volumes[0].toWorld.point(middle);
+    const glm::dvec3 middle = 0.5 * glm::dvec3(loaded.volumes[0]->size);
+    const glm::dvec3 own = loaded.volumes[0]->toWorld.point(middle);
     // the transform moves the ball by 5 m along x; the row doubles that, turns it towards +Z, and moves it
     EXPECT_LT(glm::distance(loaded.clouds[0].toWorld.point(middle), glm::dvec3(100.0, 200.0 + 2.0 * own.y, 310.0)),
               1e-6);

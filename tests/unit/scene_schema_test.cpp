@@ -107,7 +107,8 @@ TEST_P(EveryKey, NotANumberIsRefused) {
     const Key& key = GetParam();
     for (const char* value : {"nan", "inf", "-inf"}) {
         std::string text = value;
-        if (key.type == Type::vector || key.type == Type::rgb) text = fmt::format("[0.5, {}, 0.5]", value);
+        if (key.type == Type::vector || key.type == Type::wind || key.type == Type::rgb)
+            text = fmt::format("[0.5, {}, 0.5]", value);
         if (key.type == Type::matrix) text = fmt::format("[[1,0,0,{}],[0,1,0,0],[0,0,1,0]]", value);
         EXPECT_THAT(messageOf(documentOf(key, text)), HasSubstr(pathOf(key))) << text;
     }

@@ -1,10 +1,12 @@
-"""A sequence of a moving field under a moving sun in one process: seconds a frame beside a process for each frame, whether
-its memory stays flat, and whether a run that is killed at random times and goes on with --skip-existing has the same files.
+"""A sequence of a moving field under a moving sun in one process: seconds a frame, and of those on all cores together, which
+other work on the machine hardly changes, beside a process for each frame, whether its memory stays flat, and whether a run
+that is killed at random times and goes on with --skip-existing has the same files.
 """
 
 import hashlib
 import pathlib
 import random
+import resource
 import subprocess
 import time
 
@@ -68,6 +70,12 @@ def resident(process):
     return 0.0
 
 
+def cores():
+    """Seconds of all cores that processes of before have taken."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
 def whole(words):
     """Seconds, and MiB every quarter of a second."""
     begin, memory = time.monotonic(), []
@@ -103,22 +111,29 @@ def main(options):
     for folder in folders.values():
         folder.mkdir(exist_ok=True)
     sets = [word for one in options.set for word in ("--set", one)]
+    before = cores()
     seconds, memory = whole(words_of(lumulus, scene, folders["whole"], 0, last, *sets))
+    together = (cores() - before) / options.frames
     numbers = sorted({last * i // max(1, options.alone - 1) for i in range(options.alone)})
-    begin = time.monotonic()
+    begin, before = time.monotonic(), cores()
     for number in numbers:
         subprocess.run(words_of(lumulus, scene, folders["alone"], number, number, *sets), check=True)
     alone = (time.monotonic() - begin) / len(numbers)
-    times = killed(words_of(lumulus, scene, folders["killed"], 0, last, *sets), options.kills, seconds)
+    alone_cores = (cores() - before) / len(numbers)
+    times = 0
+    if options.kills > 0:
+        times = killed(words_of(lumulus, scene, folders["killed"], 0, last, *sets), options.kills, seconds)
     files = sums(folders["whole"])
     figures = {"frames": options.frames, "seconds_a_frame": seconds / options.frames, "seconds_alone": alone,
+               "core_seconds_a_frame": together, "core_seconds_alone": alone_cores,
                "mib_at_a_fifth": max(memory[: max(1, len(memory) // 5)]), "mib_at_most": max(memory), "killed": times,
                "files": len(files), "equal_alone": all(files[name] == sha for name, sha in sums(folders["alone"]).items()),
-               "equal_killed": files == sums(folders["killed"])}
-    table = Table(["frames", "s a frame", "in a process each", "MiB in the first fifth", "at most", "killed", "files",
-                   "those of single processes are the same", "those of the killed run"])
-    table.add(figures, [str(options.frames), f"{figures['seconds_a_frame']:.2f}", f"{alone:.2f}",
-                        f"{figures['mib_at_a_fifth']:.0f}", f"{figures['mib_at_most']:.0f}", str(times), str(len(files)),
+               "equal_killed": options.kills == 0 or files == sums(folders["killed"])}
+    table = Table(["frames", "s a frame", "in a process each", "of all cores", "in a process each", "MiB in the first fifth",
+                   "at most", "killed", "files", "those of single processes are the same", "those of the killed run"])
+    table.add(figures, [str(options.frames), f"{figures['seconds_a_frame']:.2f}", f"{alone:.2f}", f"{together:.2f}",
+                        f"{alone_cores:.2f}", f"{figures['mib_at_a_fifth']:.0f}",
+                        f"{figures['mib_at_most']:.0f}", str(times), str(len(files)),
                         str(figures["equal_alone"]), str(figures["equal_killed"])])
     write_figures(options, table.figures)
     if not (figures["equal_alone"] and figures["equal_killed"]):
