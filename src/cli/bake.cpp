@@ -28,7 +28,8 @@ namespace {
 scene::Scene sceneOf(const BakeOptions& options) {
     std::vector<std::string> overrides = options.overrides;
     if (options.seed) overrides.push_back("photon_map.seed=" + std::to_string(*options.seed));
-    scene::Scene scene = scene::loadScene(options.scene, overrides, options.quality);
+    scene::Scene scene =
+        scene::loadScene(options.scene, overrides, options.quality, static_cast<double>(options.frame.value_or(0)));
     scene::requireBoundedFog(scene);
     scene.photonMap.forwardCut = 0.0;
     scene.photonMap.bands = 3;
@@ -95,6 +96,7 @@ void addBake(CLI::App& app, BakeOptions& options, Action& action) {
         ->check(notEmpty());
     addQuality(*command, options.quality);
     addOverrides(*command, options.overrides);
+    addFrame(*command, options.frame);
     command->add_option("--seed", options.seed, "Seed of the random numbers (photon_map.seed)")->check(seedRange());
     addDevice(*command, options.device);
     command->add_flag("--quiet", options.quiet, "No progress");

@@ -17,6 +17,7 @@ struct BakeOptions {
     std::optional<double> voxel;   ///< edge [m]
     std::optional<scene::Quality> quality;
     std::vector<std::string> overrides;
+    std::optional<std::int64_t> frame;  ///< of an animated scene
     std::optional<std::uint64_t> seed;  ///< absent: photon_map.seed
     std::string device;
     bool quiet = false;

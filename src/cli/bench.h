@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@ struct BenchOptions {
     std::vector<double> seconds{0.1, 0.3, 1.0, 3.0, 10.0};
     int seeds = 3;
     std::vector<std::string> overrides;
+    std::optional<std::int64_t> frame;  ///< of an animated scene
     std::string device;
     std::filesystem::path cycles;  ///< table of another renderer's points; empty: none
     bool quiet = false;

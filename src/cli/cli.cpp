@@ -85,6 +85,7 @@ void addQuery(CLI::App& app, QueryOptions& options, Action& action) {
     command->add_option("--height", options.height, "Height of the rectangle, metres (default: the ground's)");
     command->add_option("-o,--output", options.output, "Table, or picture (.exr) of a rectangle; default: stdout");
     addOverrides(*command, options.overrides);
+    addFrame(*command, options.frame);
     addQuality(*command, options.quality);
     addDevice(*command, options.device);
     command->add_flag("--json", options.json, "As JSON");
@@ -97,7 +98,10 @@ void addQuery(CLI::App& app, QueryOptions& options, Action& action) {
 void addReference(CLI::App& app, ReferenceOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("reference", "Render a scene without bias, by path tracing on the CPU");
     command->add_option("scene", options.scene, sceneHelp)->required();
-    command->add_option("-o,--output", options.output, "Picture (.exr); a file .sums beside it holds the exact sums")
+    command
+        ->add_option("-o,--output", options.output,
+                     "Picture (.exr); a file .sums beside it holds the exact sums; with --frame, "
+                     "#### or %04d is its number")
         ->required();
     const CLI::Range positive(1e-3, 1e9);
     command->add_option("--spp", options.spp, "Stop at this many samples per pixel")
@@ -110,6 +114,7 @@ void addReference(CLI::App& app, ReferenceOptions& options, Action& action) {
         ->check(CLI::IsMember({"global", "local"}));
     command->add_flag("--resume", options.resume, "Continue the existing file; --spp includes its samples");
     addOverrides(*command, options.overrides);
+    addFrame(*command, options.frame);
     command->add_option("--seed", options.seed, "Seed of the random numbers (photon_map.seed)")->check(seedRange());
     command->add_option("--stats", options.stats, "Write statistics as JSON to this file, - for standard output")
         ->check(notEmpty());
@@ -157,6 +162,7 @@ void addComposite(CLI::App& app, CompositeOptions& options, Action& action) {
         ->required()
         ->allow_extra_args(false);
     addOverrides(*command, options.overrides);
+    addFrame(*command, options.frame);
     addDevice(*command, options.device);
     command->add_option("--stats", options.stats, "Write statistics as JSON to this file, - for standard output")
         ->check(notEmpty());
@@ -186,6 +192,7 @@ void addSky(CLI::App& app, SkyOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("sky", "Show where sun and moon stand and the light of a scene's sky");
     command->add_option("scene", options.scene, "Scene file (TOML) or - for standard input; default: an empty scene");
     addOverrides(*command, options.overrides);
+    addFrame(*command, options.frame);
     command->add_flag("--json", options.json, "As JSON");
     command->footer(
         "Example:\n  lumulus sky --set sky.model=atmosphere --set time.utc=2026-06-21T10:00:00Z --set "
@@ -207,6 +214,7 @@ void addBench(CLI::App& app, BenchOptions& options, Action& action) {
     command->add_option("--cycles", options.cycles, "Points of Blender's Cycles, from scripts/study/run cycles (.csv)")
         ->check(notEmpty());
     addOverrides(*command, options.overrides);
+    addFrame(*command, options.frame);
     addDevice(*command, options.device);
     command->add_flag("--quiet", options.quiet, "No progress");
     command->footer("Example:\n  lumulus bench configs/scenes/cumulus.toml --reference truth.exr -o bench");

@@ -149,7 +149,8 @@ void runComposite(const CompositeOptions& options) {
     for (const auto& output : places) requireSuffix(output, {".exr", ".png"});
     if (!options.stats.empty() && options.stats != "-") places.emplace_back(options.stats);
     checkPlaces(places);
-    const scene::Scene scene = scene::loadScene(options.scene, options.overrides);
+    const scene::Scene scene = scene::loadScene(options.scene, options.overrides, std::nullopt,
+                                                static_cast<double>(options.frame.value_or(0)));
 
     Statistics statistics;
     const Stopwatch loading;

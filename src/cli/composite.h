@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@ struct CompositeOptions {
     std::filesystem::path scene;                 ///< camera and fog
     std::vector<std::filesystem::path> outputs;  ///< .exr (linear) and .png (tone mapped)
     std::vector<std::string> overrides;
+    std::optional<std::int64_t> frame;  ///< of an animated scene
     std::string device;
     std::string stats;  ///< file, "-" for stdout, empty for none
     bool validate = false;

@@ -22,6 +22,11 @@ void addOverrides(CLI::App& command, std::vector<std::string>& overrides) {
         ->allow_extra_args(false);
 }
 
+void addFrame(CLI::App& command, std::optional<std::int64_t>& frame) {
+    command.add_option("--frame", frame, "Frame of an animated scene, as of render --frames (default: 0)")
+        ->check(CLI::Range(std::int64_t{0}, std::int64_t{999'999'999}));
+}
+
 void addQuality(CLI::App& command, std::optional<scene::Quality>& quality) {
     const std::map<std::string, scene::Quality> qualities{{"draft", scene::Quality::draft},
                                                           {"interactive", scene::Quality::interactive},

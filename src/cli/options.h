@@ -29,6 +29,8 @@ CLI::Range seedRange();
 CLI::Option* addDevice(CLI::App& command, std::string& device);
 void addQuality(CLI::App& command, std::optional<scene::Quality>& quality);
 void addOverrides(CLI::App& command, std::vector<std::string>& overrides);
+/// --frame: the frame at which the scene is.
+void addFrame(CLI::App& command, std::optional<std::int64_t>& frame);
 
 void addRender(CLI::App& app, RenderOptions& options, Action& action);
 void addMerge(CLI::App& app, MergeOptions& options, Action& action);

@@ -220,7 +220,8 @@ void runQuery(const QueryOptions& options) {
     const bool table = options.segments == "-" || options.sun == "-" || options.ambient == "-";
     if (options.scene == "-" && table)
         throw InputError("standard input cannot be both scene and table", "command line", "give a file for one");
-    const scene::Scene scene = scene::loadScene(options.scene, options.overrides, options.quality);
+    const scene::Scene scene = scene::loadScene(options.scene, options.overrides, options.quality,
+                                                static_cast<double>(options.frame.value_or(0)));
     if (!options.ambient.empty()) return answerWithAmbient(options, scene);
     shadow ? answerWithShadow(options, scene) : answerWithPassages(options, scene);
 }

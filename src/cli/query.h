@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ struct QueryOptions {
     std::filesystem::path output;    ///< empty: stdout
     std::vector<std::string> overrides;
     std::optional<scene::Quality> quality;  ///< of the photons, for ambient light
+    std::optional<std::int64_t> frame;      ///< of an animated scene
     std::string device;
     bool json = false;
     bool quiet = false;

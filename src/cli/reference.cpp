@@ -13,6 +13,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/exr.h"
+#include "base/frame_name.h"
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/progress.h"
@@ -40,7 +41,8 @@ double secondsSince(Clock::time_point start) {
 scene::Scene sceneOf(const ReferenceOptions& options) {
     std::vector<std::string> overrides = options.overrides;
     if (options.seed) overrides.push_back("photon_map.seed=" + std::to_string(*options.seed));
-    scene::Scene scene = scene::loadScene(options.scene, overrides);
+    scene::Scene scene =
+        scene::loadScene(options.scene, overrides, std::nullopt, static_cast<double>(options.frame.value_or(0)));
     scene::requireBoundedFog(scene);
     return placeClouds(std::move(scene));
 }
@@ -137,7 +139,9 @@ void noteReference(LayeredImage& image, const scene::Scene& scene, const referen
     image.attributes["lost"] = std::to_string(film.lost);
 }
 
-void runReference(const ReferenceOptions& options) {
+void runReference(const ReferenceOptions& given) {
+    ReferenceOptions options = given;
+    if (options.frame && hasFrameNumber(options.output)) options.output = nameOfFrame(options.output, *options.frame);
     checkOptions(options);
     const scene::Scene scene = sceneOf(options);
     std::vector<CloudSummary> clouds;

@@ -15,8 +15,9 @@ namespace lumulus::cli {
 struct ReferenceOptions {
     std::filesystem::path scene;
     std::filesystem::path output;
-    std::optional<std::uint64_t> spp;  ///< samples per pixel, earlier runs included
-    std::optional<double> seconds;     ///< time of this run; at least one sample per pixel
+    std::optional<std::uint64_t> spp;   ///< samples per pixel, earlier runs included
+    std::optional<std::int64_t> frame;  ///< of an animated scene; its number goes into the name of the picture
+    std::optional<double> seconds;      ///< time of this run; at least one sample per pixel
     bool localMajorant = false;
     bool resume = false;
     std::vector<std::string> overrides;

@@ -75,7 +75,8 @@ std::string textOf(const scene::Scene& scene, const glm::dvec3& place, const sky
 }  // namespace
 
 void runSky(const SkyOptions& options) {
-    const scene::Scene scene = options.scene ? scene::loadScene(*options.scene, options.overrides)
+    const scene::Scene scene = options.scene ? scene::loadScene(*options.scene, options.overrides, std::nullopt,
+                                                                static_cast<double>(options.frame.value_or(0)))
                                              : scene::parseScene("", "defaults", options.overrides);
     const glm::dvec3 place = placeOf(scene);
     const sky::SkyReport report = sky::reportSky(scene, place);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@ namespace lumulus::cli {
 struct SkyOptions {
     std::optional<std::filesystem::path> scene;  ///< absent: a scene of defaults
     std::vector<std::string> overrides;
+    std::optional<std::int64_t> frame;  ///< of an animated scene
     bool json = false;
 };
 

@@ -2,12 +2,7 @@
 
 #include <array>
 #include <map>
-#include <memory>
 #include <optional>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "gpu/allocator.h"
 
@@ -104,16 +99,6 @@ class Context {
 
     /// The pipeline of this key while a program holds it, else null: programs share what is compiled.
     std::weak_ptr<Pipeline>& pipeline(const std::string& key) { return pipelines_[key]; }
-    /// Keeps what is compiled of all programs that are made from now on until the call after the next: for work that
-    /// makes the same programs again and again.
-    void keepPipelines() {
-        before_ = std::exchange(kept_, {});
-        keeps_ = true;
-    }
-    /// Told of the pipeline of each program.
-    void used(const std::shared_ptr<Pipeline>& pipeline) {
-        if (keeps_) kept_.insert(pipeline);
-    }
 
     /// The bookkeeping behind transfers().
     void addUploaded(std::uint64_t bytes) { transfers_.uploaded += bytes; }
@@ -143,8 +128,6 @@ class Context {
     CommandBuffer immediate_;
     std::array<Owned<VkSampler>, 4> samplers_;  ///< by Sampler
     std::map<std::string, std::weak_ptr<Pipeline>> pipelines_;
-    bool keeps_ = false;
-    std::set<std::shared_ptr<Pipeline>> kept_, before_;  ///< since the last call of keepPipelines(), and before it
 };
 
 }  // namespace lumulus::gpu

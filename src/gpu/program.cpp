@@ -27,14 +27,11 @@ ProgramBase::ProgramBase(Context& context, std::string name, std::span<const std
     std::string key = fmt::format("{} {} {}", name_, code.size(), std::hash<std::string_view>()(code));
     for (const SpecConstant& constant : constants) key += fmt::format(" {}={}", constant.id, constant.value);
     std::weak_ptr<Pipeline>& shared = context.pipeline(key);
-    pipeline_ = shared.lock();
-    if (!pipeline_) {
-        pipeline_ = std::make_shared<Pipeline>();
-        createLayout(context);
-        createPipeline(context, spirv, constants);
-        shared = pipeline_;
-    }
-    context.used(pipeline_);
+    if ((pipeline_ = shared.lock())) return;
+    pipeline_ = std::make_shared<Pipeline>();
+    createLayout(context);
+    createPipeline(context, spirv, constants);
+    shared = pipeline_;
 }
 
 void ProgramBase::createLayout(Context& context) {

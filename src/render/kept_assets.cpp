@@ -65,7 +65,6 @@ KeptClouds::State* keptOn(const std::shared_ptr<gpu::Context>& context, KeptClou
     if (kept == nullptr) return nullptr;
     if (kept->state().context != context) *kept = KeptClouds();
     kept->state().context = context;
-    context->keepPipelines();
     return &kept->state();
 }
 

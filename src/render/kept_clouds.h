@@ -5,8 +5,8 @@
 namespace lumulus {
 
 /// What a renderer keeps for the next one on its device, beside which it does not live: prepared clouds, which are
-/// taken where the next one has the same fields in the same detail, the tables of the air, and programs. Each renderer
-/// that is given it leaves in it what it needs itself, and drops the rest. The pictures are those of renderers that
+/// taken where the next one has the same fields in the same detail, and the tables of the air. Each renderer that is
+/// given it leaves in it what it needs itself, and drops the rest. The pictures are those of renderers that
 /// begin anew. Not for clouds in bricks nor for those of flat voxels, which are made anew.
 class KeptClouds {
   public:

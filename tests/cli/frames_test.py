@@ -26,6 +26,21 @@ seed = 2
 transform = [[1, 0, 0, 900], [0, 1, 0, 100], [0, 0, 1, -9000]]
 """
 CONSTANT = "sky = { model = \"constant\" }\n"
+FIELD = """
+sky = { model = "constant" }
+image = { width = 48, height = 27 }
+camera = { position = [0, 300, 4000], target = [0, 900, 0] }
+photon_map = { photons = 20000, generations = 5 }
+preparation = { samples = 500 }
+[[field]]
+area = [3000, 0, 3000]
+variants = 2
+resolution = 24
+"""
+MOVING_CLOUDS = """[animate]
+cloud.0.transform = [[0, [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]], [10, [[1, 0, 0, 100], [0, 1, 0, 0], [0, 0, 1, 0]]]]
+cloud.1.transform = [[0, [[1, 0, 0, 700], [0, 1, 0, 0], [0, 0, 1, 0]]], [10, [[1, 0, 0, 500], [0, 1, 0, 50], [0, 0, 1, 0]]]]
+"""
 MOVING_CAMERA = "[animate]\ncamera.position = [[0, [0, 300, 2600]], [10, [500, 700, 2400]]]\n"
 MOVING_SUN = "[animate]\n\"sun.elevation\" = [[0, 5.0], [10, 40.0]]\n"
 
@@ -40,8 +55,20 @@ class Frames(CliTest):
         return result
 
     def test_each_frame_is_that_of_its_own_process(self):
-        """What one process keeps from frame to frame changes no bit: photons, the clouds, the device."""
-        for name, text in (("camera", CONSTANT + SMALL + MOVING_CAMERA), ("sun", SMALL + MOVING_SUN),
+        """What one process keeps from frame to frame changes no bit: photons, the clouds, the device; where clouds move, what
+        was prepared of them; where some are others, that of the others."""
+        self.volumes(0, 5, 10)
+        files = SMALL.replace("resolution = 24", "vdb = \"v_####.vdb\"")
+        wind = "wind = [[0, 0, 0, 0], [2000, 900, 0, 300]]\n"
+        for name, text in (("a field in a wind that grows with height", FIELD + wind + MOVING_SUN),
+                           ("two clouds", CONSTANT + SMALL + SECOND + MOVING_CLOUDS),
+                           ("two clouds in air", SMALL + SECOND + MOVING_CLOUDS + MOVING_SUN.split("\n", 1)[1]),
+                           ("files beside a cloud that stays", CONSTANT + files + SECOND),
+                           ("files", CONSTANT + files),
+                           ("a cloud that comes back", CONSTANT + SMALL + SECOND +
+                            "[animate]\n\"cloud.1.seed\" = [[0, 2], [5, 3], [10, 2]]\n"
+                            "\"cloud.0.extinction\" = [[0, 0.05], [10, 0.1]]\n"),
+                           ("camera", CONSTANT + SMALL + MOVING_CAMERA), ("sun", SMALL + MOVING_SUN),
                            ("sun on several clouds", CONSTANT + SMALL + SECOND + MOVING_SUN),
                            ("camera before several clouds", CONSTANT + SMALL + SECOND + MOVING_CAMERA),
                            ("fog", CONSTANT + SMALL + "[[fog.media]]\nscattering = 0.0001\nbottom = 0\ntop = 900\n"
@@ -171,18 +198,7 @@ class Frames(CliTest):
 
     def test_wind_carries_fields(self):
         """A field after ten seconds lies where one that was moved by hand does."""
-        field = """
-sky = { model = "constant" }
-image = { width = 48, height = 27 }
-camera = { position = [0, 300, 4000], target = [0, 900, 0] }
-photon_map = { photons = 20000, generations = 5 }
-preparation = { samples = 500 }
-[[field]]
-area = [3000, 0, 3000]
-variants = 1
-resolution = 24
-wind = [20, 0, -5]
-"""
+        field = FIELD + "wind = [20, 0, -5]\n"
         self.frames(self.scene(field), "0-240:240")
         hashes = self.hashes()
         self.assertNotEqual(hashes["f_0000.exr"], hashes["f_0240.exr"])
@@ -194,6 +210,57 @@ wind = [20, 0, -5]
         frames = json.loads((self.folder / "s.json").read_text())["frames"]
         self.assertEqual([each["frame"] for each in frames], [3, 4])
         self.assertEqual(frames[1]["statistics"]["photons"], 20000)
+
+    def test_what_is_kept_is_told(self):
+        """Clouds that move are prepared once. What becomes another is prepared anew."""
+        self.frames(self.scene(CONSTANT + SMALL + SECOND + MOVING_CLOUDS), "0-5", "--stats", self.folder / "s.json")
+        frames = [each["statistics"] for each in json.loads((self.folder / "s.json").read_text())["frames"]]
+        self.assertGreater(sum(frames[0]["preparation"].values()), 0.0)
+        for frame in frames[1:]:
+            self.assertEqual(frame["assets"], frames[0]["assets"])
+            self.assertEqual(frame["collectors"], frames[0]["collectors"])
+            self.assertLess(frame["gpu_bytes"], 1.01 * frames[0]["gpu_bytes"], "memory stays flat")
+            self.assertEqual(sum(frame["preparation"].values()), 0.0)
+        self.frames(self.scene(CONSTANT + SMALL + MOVING_SUN), "0-1", "--stats", self.folder / "s.json")
+        frames = [each["statistics"] for each in json.loads((self.folder / "s.json").read_text())["frames"]]
+        self.assertEqual(frames[1]["assets"], frames[0]["assets"])
+        self.assertEqual(sum(frames[1]["preparation"].values()), 0.0)
+        other = "[animate]\n\"cloud.0.seed\" = [[0, 1], [1, 2]]\n"
+        self.frames(self.scene(CONSTANT + SMALL + other), "0-1", "--stats", self.folder / "s.json")
+        frames = [each["statistics"] for each in json.loads((self.folder / "s.json").read_text())["frames"]]
+        self.assertGreater(sum(frames[1]["preparation"].values()), 0.0)
+
+    def test_the_reference_at_a_frame(self):
+        """The picture of the scene with the values of that frame."""
+        text = CONSTANT + SMALL + ("[animate]\n\"sun.elevation\" = [[0, 10.0], [4, 30.0]]\n"
+                                   "\"cloud.0.extinction\" = [[0, 0.02], [4, 0.06]]\n")
+        words = ["reference", self.scene(text), "--spp", 1, "--quiet"]
+        for more in (["-o", self.out / "t_####.exr", "--frame", 3], ["-o", self.out / "zero.exr"],
+                     ["-o", self.out / "set.exr", "--set", "sun.elevation=25", "--set", "cloud.0.extinction=0.05"]):
+            done = self.run_lumulus(*words, *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        hashes = self.hashes()
+        self.assertEqual(hashes["t_0003.exr"], hashes["set.exr"])
+        self.assertNotEqual(hashes["zero.exr"], hashes["set.exr"])
+        self.rejected(*words, "-o", self.out / "t_0003.exr", "--frame", 2, "--spp", 2, "--resume", says="another")
+        for frame in ("-1", "x", "1.5", "1-3", "1e12", "nan", ""):
+            self.rejected(*words, "-o", self.out / "a.exr", f"--frame={frame}", says="--frame")
+        files = self.scene(CONSTANT + SMALL.replace("resolution = 24", "vdb = \"v_####.vdb\""))
+        self.rejected("reference", files, "--spp", 1, "-o", self.out / "a.exr", "--frame", 8, says="frame 8: ")
+
+    def test_questions_at_a_frame(self):
+        """A ball that the wind has carried out of the way."""
+        scene = self.scene(CONSTANT + SMALL.replace("resolution = 24", "procedural = \"sphere\"") +
+                           "[animate]\n\"cloud.0.transform\" = [[0, [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]], "
+                           "[9, [[1, 0, 0, 900], [0, 1, 0, 0], [0, 0, 1, 0]]]]\n")
+        (self.folder / "s.csv").write_text("x0,y0,z0,x1,y1,z1\n0,-500,0,0,500,0\n900,-500,0,900,500,0\n")
+        for frame, thick in ((0, [True, False]), (9, [False, True]), (4, [False, False])):
+            done = self.run_lumulus("query", scene, "--segments", self.folder / "s.csv", "--json", "--frame", frame, "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            through = [min(each["transmittance"]) for each in json.loads(done.stdout)["passages"]]
+            self.assertEqual([each < 0.01 for each in through], thick, frame)
+        done = [self.run_lumulus("sky", self.scene(SMALL + MOVING_SUN), "--json", "--frame", frame) for frame in (0, 10)]
+        self.assertNotEqual(done[0].stdout, done[1].stdout)
 
     def test_names(self):
         scene = self.scene(CONSTANT + SMALL)
