@@ -18,6 +18,7 @@ layout(binding = 3, scalar) readonly buffer Params { LitFogParams storedParams; 
 layout(binding = 4, scalar) readonly buffer Media { FogMedium media[]; };
 layout(binding = 5) uniform sampler2D levelTable;   // which level lies at a height
 layout(binding = 6) uniform sampler3D scattered;    // FogLight::scattered(): columns, rows, levels
+layout(binding = 35) uniform sampler3D scatteredOfSun;  // the part of it that the sun has sent
 layout(binding = 7) uniform sampler3D onceScattered;  // FogLight::once(): rows, levels, media
 layout(binding = 10) uniform sampler2D groundSeen;  // RGB: radiance; alpha: share of the pixel
 // What clouds send more or less than the fog without them would; what of it is scattered on its way is spread by the filter.
@@ -56,17 +57,15 @@ vec3 onceAt(float level, float row, float cosine) {
     return params.sunIrradiance * sum;
 }
 
-/// The rest of it; alpha: which share of it the sun has sent.
-vec4 scatteredAt(float level, float row, float column) {
-    return textureLod(scattered,
-                      vec3((column + 0.5) / float(FOG_COLUMNS), (row + 0.5) / float(2 * FOG_ROWS),
-                           (level + 0.5) / float(params.levels)), 0.0);
+/// Where the rest of it is in its tables.
+vec3 scatteredPlace(float level, float row, float column) {
+    return vec3((column + 0.5) / float(FOG_COLUMNS), (row + 0.5) / float(2 * FOG_ROWS), (level + 0.5) / float(params.levels));
 }
 
 /// All light of the fog that is seen from a height, over its opacity along the ray.
 vec3 lightAt(Ray ray, float height) {
     const float level = levelAt(height), row = ray.side * float(FOG_ROWS) + ray.row;
-    return scatteredAt(level, row, ray.column).rgb + onceAt(level, row, ray.cosine);
+    return textureLod(scattered, scatteredPlace(level, row, ray.column), 0.0).rgb + onceAt(level, row, ray.cosine);
 }
 
 float heightAt(Ray ray, float distance_) { return params.eyeHeight + ray.origin.y + distance_ * ray.direction.y; }
@@ -92,8 +91,7 @@ mat2x3 shadowed(Ray ray, vec3 ends, bool second, float offset, vec3 all) {
         const vec3 after = depthTo(ray, far).extinction;
         const float level = levelAt(heightAt(ray, far));
         const vec3 opacity = max(exp(-after) - exp(-all), 0.0), light = onceAt(level, row, ray.cosine) * opacity;
-        const vec4 scatteredThere = scatteredAt(level, row, ray.column);
-        const vec3 more = scatteredThere.a * scatteredThere.rgb * opacity;
+        const vec3 more = textureLod(scatteredOfSun, scatteredPlace(level, row, ray.column), 0.0).rgb * opacity;
         if (step >= 0) {
             const float at = mix(near, far, offset);
             const vec3 place = ray.start + at * ray.towards, passed = after - before;

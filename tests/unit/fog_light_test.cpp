@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -48,6 +49,26 @@ TEST(FogLight, ConstantSkyShinesThroughWhateverScatters) {
             }
         EXPECT_NEAR(light.irradianceBelow().x, pi, 1e-4 * pi);
     }
+}
+
+/// Light adds up: what the sun sends under a sky of another colour, bright about it, is what it sends by itself.
+TEST(FogLight, TheSunsPartIsThatOfTheSunAlone) {
+    FogSetting alone, both;
+    alone.toSun = both.toSun = towards(10.0, 0.0);
+    alone.sun = both.sun = {3.0, 2.0, 0.5};
+    alone.groundHeight = both.groundHeight = 0.0;
+    alone.groundAlbedo = both.groundAlbedo = glm::dvec3(0.3);
+    both.skyAt = [](double up, double azimuth) {
+        return glm::dvec3(0.1, 0.3, 1.0) * (1.0 + 4.0 * std::exp(-up) * std::exp(3.0 * (std::cos(azimuth) - 1.0)));
+    };
+    const std::vector<FogLayer> layers{haze()};
+    const FogLight expected(layers, alone), light(layers, both);
+    ASSERT_EQ(light.scatteredOfSun().size(), expected.scattered().size());
+    float most = 0.0F;
+    for (const glm::vec3& value : expected.scattered()) most = std::max({most, value.r, value.g, value.b});
+    for (std::size_t i = 0; i < light.scatteredOfSun().size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(light.scatteredOfSun()[i][c], expected.scattered()[i][c], 1e-4F * most) << i << " " << c;
 }
 
 /// Transmittance of a layer by doubling (scripts/study/layers.py): tau 1, g 0.85, sun at 30 degrees.

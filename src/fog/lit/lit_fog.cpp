@@ -19,10 +19,10 @@ namespace spirv {
 
 constexpr VkFormat lightFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 
-std::vector<glm::vec4> texelsOf(const std::vector<glm::vec3>& values, const std::vector<float>& alphas) {
+std::vector<glm::vec4> texelsOf(const std::vector<glm::vec3>& values) {
     std::vector<glm::vec4> texels;
     texels.reserve(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) texels.emplace_back(values[i], alphas[i]);
+    for (const glm::vec3& value : values) texels.emplace_back(value, 1.0F);
     return texels;
 }
 
@@ -86,8 +86,9 @@ void LitFog::update(const fog_light::FogLight& light, std::uint64_t version) {
     const auto levels = static_cast<int>(light.levels().size());
     upload(context_, levels_, "fog levels", glm::ivec2(shared::FOG_HEIGHTS, 1), VK_FORMAT_R32_SFLOAT,
            levelTable(light.levels()));
-    upload(context_, scattered_, "fog scattered", glm::ivec3(shared::FOG_COLUMNS, 2 * shared::FOG_ROWS, levels),
-           lightFormat, texelsOf(light.scattered(), light.sunShares()));
+    const glm::ivec3 table(shared::FOG_COLUMNS, 2 * shared::FOG_ROWS, levels);
+    upload(context_, scattered_, "fog scattered", table, lightFormat, texelsOf(light.scattered()));
+    upload(context_, ofSun_, "fog scattered of the sun", table, lightFormat, texelsOf(light.scatteredOfSun()));
     std::vector<glm::vec4> once;
     for (const auto& medium : light.once())
         for (const glm::vec3& value : medium) once.emplace_back(value, 1.0F);
@@ -153,6 +154,7 @@ void LitFog::record(gpu::Commands& commands, const frame::Frame& frame, const Ca
          {"Media", *media_},
          {"levelTable", *levels_, gpu::Sampler::linearClamp},
          {"scattered", *scattered_, gpu::Sampler::linearClamp},
+         {"scatteredOfSun", *ofSun_, gpu::Sampler::linearClamp},
          {"onceScattered", *once_, gpu::Sampler::linearClamp},
          {"casters", *casters_},
          {"shadowVolume", casters.volumes != nullptr ? *casters.volumes : noVolume_, gpu::Sampler::linearClamp},

@@ -68,7 +68,7 @@ class LitFog {
     std::optional<std::uint64_t> version_;
     Beside beside_;                               ///< of the light of that version
     const fog_light::FogLight* light_ = nullptr;  ///< valid between update() and record()
-    std::optional<gpu::Image> levels_, scattered_, once_, groundSeen_, more_, less_;
+    std::optional<gpu::Image> levels_, scattered_, ofSun_, once_, groundSeen_, more_, less_;
     std::optional<gpu::Buffer> media_, casters_;
 };
 

@@ -105,17 +105,14 @@ FogLight::FogLight(const std::vector<FogLayer>& layers, const FogSetting& settin
         const auto c = static_cast<std::size_t>(task % 3);
         solveMode(stacks[c], dark, sky, task % 3, task / 3, ofSky[c]);
     });
-    findSunShares(seenByAzimuth(ofSky));
+    findLightOfSun(seenByAzimuth(ofSky));
 }
 
 /// `ofSky`: by colour, [level][row][column].
-void FogLight::findSunShares(const std::vector<Vector>& ofSky) {
-    sunShares_.resize(scattered_.size());
-    const auto luminance = [](const glm::dvec3& rgb) { return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)); };
-    for (std::size_t i = 0; i < scattered_.size(); ++i) {
-        const double all = luminance(scattered_[i]), sky = luminance({ofSky[0][i], ofSky[1][i], ofSky[2][i]});
-        sunShares_[i] = static_cast<float>(all > 0.0 ? std::clamp(1.0 - sky / all, 0.0, 1.0) : 0.0);
-    }
+void FogLight::findLightOfSun(const std::vector<Vector>& ofSky) {
+    for (std::size_t i = 0; i < scattered_.size(); ++i)
+        scatteredOfSun_.push_back(
+            glm::max(scattered_[i] - glm::vec3(ofSky[0][i], ofSky[1][i], ofSky[2][i]), glm::vec3(0.0F)));
 }
 
 /// Air scatters so evenly that a table by direction has what it scatters once, too.
