@@ -168,8 +168,8 @@ TEST(Atmosphere, LuminanceOfTheZenith) {
     for (const auto& row : published) EXPECT_NEAR(zenith(row[0]), row[1], 0.15 * row[1]) << row[0];
 }
 
-/// Hošek and Wilkie 2012, turbidity 2 to 2.5: zenith [cd/m²] and level illuminance of the sky [klx]. At 30° and 10° their
-/// zenith is a third to a half brighter than Karayel's, so that they bound from above what lies near Karayel's.
+/// Hošek and Wilkie 2012, turbidity 2 to 2.5: zenith [cd/m²] and level illuminance of the sky [klx]. At 30° and 10°
+/// their zenith is a third to a half brighter than Karayel's, so that they bound from above what lies near Karayel's.
 TEST(Atmosphere, SkyBesideThatOfHosek) {
     struct Row {
         double elevation, zenithFrom, zenithTo, luxFrom, luxTo, most;
