@@ -253,13 +253,14 @@ class Faults(DensityTest):
         self.one.load_scene("moving.toml")  # for the other tests
 
     def test_memory_stays(self):
-        for frame in (1, 2):
-            self.one.change(frame=frame)
-        before = self.server.memory()
-        for swap in range(8):
+        """A scene has 40 MB. The driver and the allocator of each thread fill up for 30 swaps (130 MB in all, measured)."""
+        warm, more = 32, 24
+        for swap in range(warm + more):
+            if swap == warm:
+                before = self.server.memory()
             self.one.change(frame=swap % FRAMES)
             self.one.frame()
-        self.assertLess(self.server.memory() - before, 60e6)
+        self.assertLess(self.server.memory() - before, 30e6)
         self.one.load_scene("moving.toml")
 
 
