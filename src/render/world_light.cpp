@@ -72,10 +72,6 @@ void findMapLight(World& world, const sky::MapSky& map) {
     light->sunAbove = world.lights.sun.irradiance;
 }
 
-}  // namespace
-
-namespace {
-
 /// Light of the sky that goes to and fro along lines of sight, where all clouds have one medium with a backward peak.
 std::optional<photon::SkyReturn> skyReturnIn(const World& world) {
     const std::vector<std::size_t> visible = world.visible();

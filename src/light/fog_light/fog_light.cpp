@@ -41,7 +41,12 @@ void solveMode(const Stack& stack, const FogSetting& setting, const SkyLight& sk
 
 /// Light of all modes together: of each colour by [level][row][column].
 std::vector<Vector> seenByAzimuth(const std::vector<Solved>& solved) {
-    const Vector azimuths = columnAzimuths();
+    std::vector<std::vector<double>> cosines;  // by column and mode
+    for (const double azimuth : columnAzimuths()) {
+        std::vector<double>& ofColumn = cosines.emplace_back();
+        for (std::size_t mode = 0; mode < solved.front().modes.size(); ++mode)
+            ofColumn.push_back(std::cos(static_cast<double>(mode) * azimuth));
+    }
     std::vector<Vector> seen;
     for (const Solved& colour : solved) {
         Vector& light = seen.emplace_back(colour.modes.front().size() * columns);
@@ -49,7 +54,7 @@ std::vector<Vector> seenByAzimuth(const std::vector<Solved>& solved) {
             for (std::size_t column = 0; column < columns; ++column) {
                 double sum = 0.0;
                 for (std::size_t mode = 0; mode < colour.modes.size(); ++mode)
-                    sum += std::cos(static_cast<double>(mode) * azimuths[column]) * colour.modes[mode][place];
+                    sum += cosines[column][mode] * colour.modes[mode][place];
                 light[place * columns + column] = std::max(sum, 0.0);
             }
         });
