@@ -18,11 +18,16 @@ bool isSequence(const scene::Cloud& cloud) {
     return cloud.moment.has_value() || cloud.sequence.frames.has_value();
 }
 
+void takeGrid(scene::Cloud& cloud, const NewDensity& density) {
+    if (!density.grid.empty()) cloud.grid = density.grid;
+}
+
 void showUpload(scene::Cloud& cloud, const NewDensity& density, const RenderConfig& config) {
     cloud.vdb = uploadedFile(density.vdb, config);
     cloud.voxels.reset();
     cloud.moment.reset();
     cloud.held.clear();
+    takeGrid(cloud, density);
 }
 
 /// The cloud of the scene's file that cloud `i` is, or that it was added like; null where it has none.
@@ -60,8 +65,10 @@ void showFrames(scene::Scene& scene, const DensityWish& wish, const RenderConfig
         const bool has = at != nullptr && isSequence(*at);
         if (named && !has)
             throw RequestError("bad_request", "the cloud is no sequence of files, and has no other frames", "cloud");
-        if (has) showFrame(scene.clouds[i], *at);
-        any = any || has;
+        if (!has) continue;
+        showFrame(scene.clouds[i], *at);
+        takeGrid(scene.clouds[i], wish.density);
+        any = true;
     }
     if (!any) throw RequestError("bad_request", "the scene has no cloud that is a sequence of files", "frame");
 }
@@ -89,8 +96,6 @@ SourcedScene sourceDensity(const DensityWish& wish, const RenderConfig& config, 
     } catch (const InputError& e) {
         throw RequestError("bad_request", e.what(), "frame");
     }
-    for (const std::size_t i : wish.clouds)
-        if (!wish.density.grid.empty()) found.scene.clouds.at(i).grid = wish.density.grid;
     return found;
 }
 

@@ -214,6 +214,7 @@ class Faults(DensityTest):
                 ({"vdb": "sha256:" + 64 * "0"}, "not_found", "vdb", "no such upload"),
                 ({"vdb": "../small"}, "bad_request", "vdb", "sha256"),
                 ({"frame": 7}, "bad_request", "frame", "c_0007.vdb does not exist"),
+                ({"frame": 1, "grid": "temperature"}, "bad_request", "", "temperature"),
                 ({"frame": "2"}, "bad_request", "frame", "number"),
                 ({"frame": 1, "vdb": other}, "bad_request", "frame", "not both"),
                 ({"frame": 1, "sun": {"azimuth": 1, "elevation": 1}}, "bad_request", "frame", "by itself"),
