@@ -8,16 +8,19 @@ layout(local_size_x = 64) in;
 /// Listed blocks are not drawn pixel by pixel but sampled at half the spacing next (interpolate_refined.comp), to which
 /// the points half-way in other blocks are given too.
 layout(constant_id = 0) const bool REFINES = false;
+layout(constant_id = 4) const bool MANY = false;  // more than one cloud
 
 layout(binding = 0, scalar) readonly buffer Params { DrawParams storedParams; };
 layout(binding = 1, rgba32f) readonly uniform imageBuffer samplePoints;
 layout(binding = 2, scalar) writeonly buffer Pixels { Pixel pixels[]; };
 layout(binding = 3, scalar) buffer Blocks { uvec3 listGroups; uint listCount; uint listed[]; };
 layout(binding = 4, scalar) writeonly buffer Refined { Pixel refined[]; };
+layout(binding = 5, scalar) readonly buffer TileDetail { uint tileDetail[]; };
 layout(push_constant, scalar) uniform Push { InterpolatePush push; };
 
 DrawParams params;
 #include "lib/sparse_sampling.glsl"
+#include "lib/tile_detail.glsl"
 #include "lib/linear.glsl"
 
 int pointIndex(ivec2 point) {
@@ -85,7 +88,7 @@ void main() {
     const Pixel corners[4] = Pixel[4](pointAt(block), pointAt(block + ivec2(1, 0)), pointAt(block + ivec2(0, 1)),
                                       pointAt(block + 1));
     if (REFINES) storeRefined(2 * local, corners[0]);
-    if (!isSmooth(block, corners)) {
+    if ((MANY && detailOf(block, spacing) > ANY_DETAIL) || !isSmooth(block, corners)) {
         list(block);
         if (!REFINES) storePixel(block * spacing, corners[0]);
         return;

@@ -6,15 +6,19 @@
 
 layout(local_size_x = 88) in;  // the cells of LISTED_GROUP blocks, and four more
 
+layout(constant_id = 4) const bool MANY = false;  // more than one cloud
+
 layout(binding = 0, scalar) readonly buffer Params { DrawParams storedParams; };
 layout(binding = 1, rgba32f) readonly uniform imageBuffer refined;
 layout(binding = 2, scalar) writeonly buffer Pixels { Pixel pixels[]; };
 layout(binding = 3, scalar) readonly buffer Blocks { uvec3 blockGroups; uint blockCount; uint blocks[]; };
 layout(binding = 4, scalar) buffer Cells { uvec3 listGroups; uint listCount; uint listed[]; };
+layout(binding = 5, scalar) readonly buffer TileDetail { uint tileDetail[]; };
 layout(push_constant, scalar) uniform Push { InterpolatePush push; };
 
 DrawParams params;
 #include "lib/sparse_sampling.glsl"
+#include "lib/tile_detail.glsl"
 
 int refinedIndex(ivec2 point) {
     const ivec2 place = min(point - 2 * push.firstBlock, 2 * push.blocks - 1);
@@ -62,7 +66,7 @@ void main() {
     if (any(lessThanEqual(place, ivec2(-2))) || any(greaterThanEqual(place, push.count))) return;
     const Pixel corners[4] = Pixel[4](pointAt(cell), pointAt(cell + ivec2(1, 0)), pointAt(cell + ivec2(0, 1)),
                                       pointAt(cell + 1));
-    const bool drawn = !isSmooth(cell);
+    const bool drawn = (MANY && detailOf(cell, 2) == DETAIL_OF_PIXELS) || !isSmooth(cell);
     if (drawn) list(cell);
     for (int i = 0; i < (drawn ? 1 : 4); ++i) {
         const ivec2 part = ivec2(i & 1, i >> 1);

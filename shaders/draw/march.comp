@@ -132,10 +132,14 @@ RayLight march(InstanceRange range, vec3 origin, vec3 direction, float offset) {
         while (entry < range.last) {
             int number = -1;
             while (number < 0 && entry < range.last) {
-                const int listed = listedInstance(entry++);
+                const Listed listed = listedInstance(entry++);
+                if (listed.nearest > begin) {
+                    entry = range.last;
+                    break;
+                }
                 float voxelLength;
-                const vec2 inside = insideOf(listed, origin, direction, voxelLength);
-                if (inside.x < inside.y && inside.x <= begin && inside.y > begin) number = listed;
+                const vec2 inside = insideOf(listed.instance, origin, direction, voxelLength);
+                if (inside.x < inside.y && inside.x <= begin && inside.y > begin) number = listed.instance;
             }
             const InstanceParams instance = instanceAt(max(number, 0));
             const float until = number < 0 ? begin : end;

@@ -6,7 +6,7 @@
 #include "lib/instances.glsl"
 
 layout(binding = 10, scalar) readonly buffer TileOffsets { uint tileOffsets[]; };
-layout(binding = 11, r32ui) readonly uniform uimageBuffer tileLists;
+layout(binding = 11, rg32ui) readonly uniform uimageBuffer tileLists;  // instance, where it begins at the nearest
 // As texels: their loads are by vectors on lavapipe, those from buffers by lanes.
 layout(binding = 14, rgba32f) readonly uniform imageBuffer instancePlaces;
 
@@ -20,7 +20,16 @@ InstanceRange instancesOf(ivec2 pixel) {
     return InstanceRange(int(tileOffsets[tile]), int(tileOffsets[tile + 1]));
 }
 
-int listedInstance(int entry) { return int(imageLoad(tileLists, entry).r); }
+/// An entry of a list: no ray meets it, or those after it, before a distance [m].
+struct Listed {
+    int instance;
+    float nearest;
+};
+
+Listed listedInstance(int entry) {
+    const uvec2 texel = imageLoad(tileLists, entry).rg;
+    return Listed(int(texel.x), uintBitsToFloat(texel.y));
+}
 
 /// Distances between which a ray is in a listed instance, and the voxel's length there.
 vec2 insideOf(int instance, vec3 origin, vec3 direction, out float voxelLength) {
@@ -38,14 +47,20 @@ vec2 insideOf(int instance, vec3 origin, vec3 direction, out float voxelLength) 
 const float SHARED_SEGMENT = 2.0;
 
 /// The end of the segment that begins at a distance: the next distance at which an instance is entered or left, or a little
-/// way where the line is in several. Negative: nothing is met from there on.
-float segmentEnd(InstanceRange range, vec3 origin, vec3 direction, float begin) {
+/// way where the line is in several. Negative: nothing is met from there on. Leaves out of the range what comes first in it
+/// and lies behind.
+float segmentEnd(inout InstanceRange range, vec3 origin, vec3 direction, float begin) {
     float end = 3.4e38, shortest = 3.4e38;
     int within = 0;
     for (int entry = range.first; entry < range.last; ++entry) {
+        const Listed listed = listedInstance(entry);
+        if (listed.nearest > end) break;
         float voxelLength;
-        const vec2 inside = insideOf(listedInstance(entry), origin, direction, voxelLength);
-        if (inside.x >= inside.y || inside.y <= begin) continue;
+        const vec2 inside = insideOf(listed.instance, origin, direction, voxelLength);
+        if (inside.x >= inside.y || inside.y <= begin) {
+            if (entry == range.first) ++range.first;
+            continue;
+        }
         if (inside.x > begin) {
             end = min(end, inside.x);
         } else {

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "cloud/prepare_parts.h"
+#include "cloud/prepare_programs.h"
 #include "gpu/commands.h"
 #include "gpu/groups.h"
 #include "gpu/transfer.h"
@@ -8,12 +9,6 @@
 namespace lumulus::cloud {
 
 namespace {
-
-namespace spirv {
-#include "spirv/cloud/block_majorant.comp.h"
-#include "spirv/cloud/gradient_bound.comp.h"
-#include "spirv/cloud/leaf_index.comp.h"
-}  // namespace spirv
 
 using gpu::linearGroups;
 using gpu::Memory;
@@ -41,10 +36,8 @@ gpu::Image uploadDensity(gpu::Context& context, const vdb::QuantisedVolume& quan
 }
 
 /// Majorants of the density and bounds of its gradient.
-Blocks boundBlocks(gpu::Context& context, const DensityImages& images, const glm::ivec3& size,
-                   const glm::mat3& toMetres) {
-    const gpu::Program<shared::BlockPush> majorant(context, "block_majorant", spirv::block_majorant_comp);
-    const gpu::Program<shared::BlockPush> bound(context, "gradient_bound", spirv::gradient_bound_comp);
+Blocks boundBlocks(gpu::Context& context, const PreparePrograms& programs, const DensityImages& images,
+                   const glm::ivec3& size, const glm::mat3& toMetres) {
     Blocks blocks;
     blocks.count = (size + shared::BLOCK_EDGE - 1) / shared::BLOCK_EDGE;
     const auto total = static_cast<std::uint64_t>(blocks.count.x) * static_cast<std::uint64_t>(blocks.count.y) *
@@ -55,11 +48,11 @@ Blocks boundBlocks(gpu::Context& context, const DensityImages& images, const glm
     gpu::Commands commands(context);
     commands.begin();
     commands.pass("majorant");
-    commands.dispatch(majorant, {{"density", images.density, Sampler::nearest}, {"Majorants", majorants}}, push,
-                      linearGroups(total, 64));
+    commands.dispatch(programs.blockMajorant, {{"density", images.density, Sampler::nearest}, {"Majorants", majorants}},
+                      push, linearGroups(total, 64));
     commands.barrier("block majorants");
     commands.pass("gradient");
-    commands.dispatch(bound,
+    commands.dispatch(programs.gradientBound,
                       {{"density", images.density, Sampler::nearest},
                        {"bricks", images.bricks, Sampler::nearest},
                        {"Majorants", majorants},
@@ -76,13 +69,10 @@ Blocks boundBlocks(gpu::Context& context, const DensityImages& images, const glm
 
 /// Voxels up to which a merged grid is given majorants of finer blocks.
 constexpr std::uint64_t finerUpTo = 1ULL << 24U;
-/// Edge of these, voxels.
-constexpr int fineEdge = 2;
 
 /// Majorants for cloud::mergeGrids(): of blocks so fine that those that reach over a cell hardly raise its majorant.
-MajorantGrid fineBlocks(gpu::Context& context, const DensityImages& images, const glm::ivec3& size) {
-    const gpu::Program<shared::BlockPush> majorant(context, "block_majorant", spirv::block_majorant_comp,
-                                                   {gpu::SpecConstant::of(23, fineEdge)});
+MajorantGrid fineBlocks(gpu::Context& context, const PreparePrograms& programs, const DensityImages& images,
+                        const glm::ivec3& size) {
     const glm::ivec3 blocks = (size + fineEdge - 1) / fineEdge;
     const auto total = static_cast<std::uint64_t>(blocks.x) * static_cast<std::uint64_t>(blocks.y) *
                        static_cast<std::uint64_t>(blocks.z);
@@ -90,7 +80,7 @@ MajorantGrid fineBlocks(gpu::Context& context, const DensityImages& images, cons
     gpu::Commands commands(context);
     commands.begin();
     commands.pass("majorant");
-    commands.dispatch(majorant, {{"density", images.density, Sampler::nearest}, {"Majorants", majorants}},
+    commands.dispatch(programs.fineMajorant, {{"density", images.density, Sampler::nearest}, {"Majorants", majorants}},
                       shared::BlockPush{size, blocks, {}}, linearGroups(total, 64));
     commands.submit();
     commands.wait();
@@ -98,9 +88,9 @@ MajorantGrid fineBlocks(gpu::Context& context, const DensityImages& images, cons
     return {blocks, glm::vec3(static_cast<float>(fineEdge)), {found.begin(), found.end()}};
 }
 
-gpu::Image indexCollectors(gpu::Context& context, const glm::ivec3& size, const gpu::Buffer& leafBuffer,
-                           const std::vector<std::uint32_t>& numbers, std::size_t collectors) {
-    const gpu::Program<shared::LeafPush> program(context, "leaf_index", spirv::leaf_index_comp);
+gpu::Image indexCollectors(gpu::Context& context, const PreparePrograms& programs, const glm::ivec3& size,
+                           const gpu::Buffer& leafBuffer, const std::vector<std::uint32_t>& numbers,
+                           std::size_t collectors) {
     gpu::Image index(context, "collector index", size, collectors < 0xFFFF ? VK_FORMAT_R16_UINT : VK_FORMAT_R32_UINT);
     gpu::Buffer numberBuffer(context, "collector of leaf", numbers.size() * sizeof(std::uint32_t), Memory::device);
     gpu::upload(context, numberBuffer, numbers);
@@ -108,7 +98,8 @@ gpu::Image indexCollectors(gpu::Context& context, const glm::ivec3& size, const 
     gpu::Commands commands(context);
     commands.begin();
     commands.pass("leaf index");
-    commands.dispatch(program, {{"Leaves", leafBuffer}, {"Collectors", numberBuffer}, {"collectorIndex", index}},
+    commands.dispatch(programs.leafIndex,
+                      {{"Leaves", leafBuffer}, {"Collectors", numberBuffer}, {"collectorIndex", index}},
                       shared::LeafPush{size, leaves}, linearGroups(leaves, 1));
     commands.submit();
     commands.wait();
@@ -120,6 +111,7 @@ gpu::Image indexCollectors(gpu::Context& context, const glm::ivec3& size, const 
 Asset prepare(gpu::Context& context, const vdb::PlacedVolume& placed, const PrepareOptions& options) {
     StepWatch watch(options.check);
     PreparationTimes times;
+    const PreparePrograms programs(context);
     const vdb::Volume& volume = *placed.volume;
     const glm::dmat3& voxelToMetres = placed.toWorld.linear;
     const vdb::QuantisedVolume quantised = vdb::quantise(volume, options.check);
@@ -128,9 +120,10 @@ Asset prepare(gpu::Context& context, const vdb::PlacedVolume& placed, const Prep
     const DensityImages images{*density, none};
     times.upload = watch.lap();
     const glm::mat3 toMetres = gradientToMetres(voxelToMetres);
-    const Blocks blocks = boundBlocks(context, images, volume.size, toMetres);
+    const Blocks blocks = boundBlocks(context, programs, images, volume.size, toMetres);
     times.majorants = watch.lap();
-    std::vector<Sample> samples = sampleGradient(context, images, volume.size, blocks, toMetres, options);
+    std::vector<Sample> samples =
+        sampleGradient(context, programs.sample, images, volume.size, blocks, toMetres, options);
     times.sampling = watch.lap();
     const BlockDensity blockDensity(volume.density, volume.size, volume.maximum, 1, options.check);
     KdTree tree = makeTree(samples, volume.size, blockDensity, voxelToMetres, blocks, options);
@@ -138,11 +131,11 @@ Asset prepare(gpu::Context& context, const vdb::PlacedVolume& placed, const Prep
 
     gpu::Buffer leafBuffer(context, "leaves", tree.leaves.size() * sizeof(shared::LeafBox), Memory::device);
     gpu::upload(context, leafBuffer, tree.leaves);
-    const auto statistics =
-        leafStatistics(context, images, volume.size, leafBuffer, static_cast<std::uint32_t>(tree.leaves.size()));
+    const auto statistics = leafStatistics(context, programs.leafStatistics, images, volume.size, leafBuffer,
+                                           static_cast<std::uint32_t>(tree.leaves.size()));
     std::vector<std::uint32_t> numbers;
     std::vector<Collector> collectors = makeCollectors(tree, statistics, numbers);
-    gpu::Image index = indexCollectors(context, volume.size, leafBuffer, numbers, collectors.size());
+    gpu::Image index = indexCollectors(context, programs, volume.size, leafBuffer, numbers, collectors.size());
 
     times.collectors = watch.lap();
 
@@ -154,7 +147,7 @@ Asset prepare(gpu::Context& context, const vdb::PlacedVolume& placed, const Prep
     const bool fine = static_cast<std::uint64_t>(quantised.texels.size()) <= finerUpTo;
     MajorantGrid merged;
     if (options.keepBlocks)
-        merged = fine ? fineBlocks(context, images, volume.size)
+        merged = fine ? fineBlocks(context, programs, images, volume.size)
                       : majorantGrid(blocks.majorants, blocks.count, volume.size, 1, mass);
     times.majorants += watch.lap();
     return Asset{volume.size,

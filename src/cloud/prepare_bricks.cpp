@@ -10,6 +10,11 @@ namespace lumulus::cloud {
 
 namespace {
 
+namespace spirv {
+#include "spirv/cloud/leaf_statistics_bricks.comp.h"
+#include "spirv/cloud/sample.comp.h"
+}  // namespace spirv
+
 using vdb::SparseVolume;
 
 /// Values of the coarse density by which the kD-tree is split.
@@ -134,14 +139,18 @@ Asset prepareBricks(gpu::Context& context, const SparseVolume& volume, const vdb
                     std::shared_ptr<const gpu::Image> pool, const PrepareOptions& options) {
     StepWatch watch(options.check);
     PreparationTimes times;
+    const gpu::SpecConstant sparse = gpu::SpecConstant::of(15, true);
+    const gpu::Program<shared::SamplePush> sample(context, "sample", spirv::sample_comp, {sparse});
+    const gpu::Program<shared::LeafPush> statisticsOf(context, "leaf_statistics_bricks",
+                                                      spirv::leaf_statistics_bricks_comp, {sparse});
     const glm::dmat3& voxelToMetres = toWorld.linear;
     gpu::Image bricks = makeBrickIndex(context, volume);
-    const DensityImages images{*pool, bricks, true};
+    const DensityImages images{*pool, bricks};
     times.upload = watch.lap();
     const glm::mat3 toMetres = gradientToMetres(voxelToMetres);
     const Blocks blocks = brickBlocks(volume, toMetres, options.check);
     times.majorants = watch.lap();
-    std::vector<Sample> samples = sampleGradient(context, images, volume.size, blocks, toMetres, options);
+    std::vector<Sample> samples = sampleGradient(context, sample, images, volume.size, blocks, toMetres, options);
     times.sampling = watch.lap();
     const CoarseDensity coarse = coarseDensity(volume);
     const BlockDensity blockDensity(coarse.values, coarse.size, volume.maximum, coarse.scale);
@@ -149,8 +158,8 @@ Asset prepareBricks(gpu::Context& context, const SparseVolume& volume, const vdb
     times.tree = watch.lap();
 
     const gpu::Buffer leafBuffer = gpu::filledBuffer(context, "leaves", tree.leaves);
-    const auto statistics =
-        leafStatistics(context, images, volume.size, leafBuffer, static_cast<std::uint32_t>(tree.leaves.size()));
+    const auto statistics = leafStatistics(context, statisticsOf, images, volume.size, leafBuffer,
+                                           static_cast<std::uint32_t>(tree.leaves.size()));
     std::vector<std::uint32_t> numbers;
     std::vector<Collector> collectors = makeCollectors(tree, statistics, numbers);
     gpu::Image index = indexCollectors(context, volume, tree, numbers);

@@ -13,12 +13,6 @@ namespace lumulus::cloud {
 
 namespace {
 
-namespace spirv {
-#include "spirv/cloud/leaf_statistics.comp.h"
-#include "spirv/cloud/leaf_statistics_bricks.comp.h"
-#include "spirv/cloud/sample.comp.h"
-}  // namespace spirv
-
 using gpu::linearGroups;
 using gpu::Memory;
 using gpu::Sampler;
@@ -62,11 +56,11 @@ double Blocks::occupiedVoxels() const {
     return static_cast<double>(occupied) * std::pow(edge, 3);
 }
 
-std::vector<Sample> sampleGradient(gpu::Context& context, const DensityImages& images, const glm::ivec3& size,
-                                   const Blocks& blocks, const glm::mat3& toMetres, const PrepareOptions& options) {
+std::vector<Sample> sampleGradient(gpu::Context& context, const gpu::Program<shared::SamplePush>& program,
+                                   const DensityImages& images, const glm::ivec3& size, const Blocks& blocks,
+                                   const glm::mat3& toMetres, const PrepareOptions& options) {
     const std::vector<std::uint32_t> shares = cumulativeShares(blocks.gradientBounds);
     if (shares.empty()) return {};
-    const gpu::Program<shared::SamplePush> program(context, "sample", spirv::sample_comp, {images.constant()});
     const gpu::Buffer places = gpu::filledBuffer(context, "block places", blocks.places);
     gpu::Buffer bounds(context, "gradient bounds", shares.size() * sizeof(float), Memory::device);
     gpu::Buffer cumulative(context, "gradient prefix", shares.size() * sizeof(std::uint32_t), Memory::device);
@@ -109,13 +103,9 @@ KdTree makeTree(const std::vector<Sample>& samples, const glm::ivec3& size, cons
     return buildKdTree(samples, size, tree);
 }
 
-std::vector<shared::LeafStatistics> leafStatistics(gpu::Context& context, const DensityImages& images,
-                                                   const glm::ivec3& size, const gpu::Buffer& leafBuffer,
-                                                   std::uint32_t leaves) {
-    const auto program = images.sparse
-                             ? gpu::Program<shared::LeafPush>(context, "leaf_statistics_bricks",
-                                                              spirv::leaf_statistics_bricks_comp, {images.constant()})
-                             : gpu::Program<shared::LeafPush>(context, "leaf_statistics", spirv::leaf_statistics_comp);
+std::vector<shared::LeafStatistics> leafStatistics(gpu::Context& context, const gpu::Program<shared::LeafPush>& program,
+                                                   const DensityImages& images, const glm::ivec3& size,
+                                                   const gpu::Buffer& leafBuffer, std::uint32_t leaves) {
     gpu::Buffer statistics(context, "leaf statistics", leaves * sizeof(shared::LeafStatistics), Memory::host);
     gpu::Commands commands(context);
     commands.begin();

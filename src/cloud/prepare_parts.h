@@ -47,21 +47,19 @@ struct Blocks {
 struct DensityImages {
     const gpu::Image& density;
     const gpu::Image& bricks;  ///< any image of integers where the density is dense
-    bool sparse = false;
-
-    gpu::SpecConstant constant() const { return gpu::SpecConstant::of(15, sparse); }
 };
 
-std::vector<Sample> sampleGradient(gpu::Context& context, const DensityImages& images, const glm::ivec3& size,
-                                   const Blocks& blocks, const glm::mat3& toMetres, const PrepareOptions& options);
+std::vector<Sample> sampleGradient(gpu::Context& context, const gpu::Program<shared::SamplePush>& program,
+                                   const DensityImages& images, const glm::ivec3& size, const Blocks& blocks,
+                                   const glm::mat3& toMetres, const PrepareOptions& options);
 
 /// The kD-tree over the samples. `density` need not outlive this.
 KdTree makeTree(const std::vector<Sample>& samples, const glm::ivec3& size, const BlockDensity& density,
                 const glm::dmat3& voxelToMetres, const Blocks& blocks, const PrepareOptions& options);
 
-std::vector<shared::LeafStatistics> leafStatistics(gpu::Context& context, const DensityImages& images,
-                                                   const glm::ivec3& size, const gpu::Buffer& leafBuffer,
-                                                   std::uint32_t leaves);
+std::vector<shared::LeafStatistics> leafStatistics(gpu::Context& context, const gpu::Program<shared::LeafPush>& program,
+                                                   const DensityImages& images, const glm::ivec3& size,
+                                                   const gpu::Buffer& leafBuffer, std::uint32_t leaves);
 
 /// One collector for each leaf that has mass; `numbers` receives the collector of each leaf, NO_COLLECTOR for the rest.
 std::vector<Collector> makeCollectors(const KdTree& tree, const std::vector<shared::LeafStatistics>& statistics,

@@ -1,8 +1,10 @@
 #include "draw/instance_tiles.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 
+#include "draw/sparse_sampling.h"
 #include "gpu/transfer.h"
 
 namespace lumulus::draw {
@@ -20,13 +22,18 @@ gpu::Buffer texelBuffer(gpu::Context& context, const char* name, std::span<const
 struct Spheres {
     std::vector<shared::Billboard> spheres;
     std::vector<std::uint32_t> instances;
+    std::vector<float> nearest;  ///< distance from the eye at which a ray may meet one [m]
 };
 
 Spheres spheresOf(std::span<const cloud::Instance* const> instances, const Camera& camera) {
     Spheres result;
-    std::vector<double> nearest;
-    for (const cloud::Instance* instance : instances)
-        nearest.push_back(glm::length(instance->middle() - camera.position) - 0.5 * instance->diagonal());
+    std::vector<float> nearest;
+    for (const cloud::Instance* instance : instances) {
+        const glm::dvec3 away = instance->middle() - camera.position;
+        const bool parallel = camera.projection == scene::Projection::orthographic;
+        const double distance = parallel ? glm::dot(away, camera.axes[2]) : glm::length(away);
+        nearest.push_back(static_cast<float>(distance - 0.5 * instance->diagonal() - instance->voxelEdge()));
+    }
     result.instances.resize(instances.size());
     std::iota(result.instances.begin(), result.instances.end(), 0U);
     std::ranges::stable_sort(result.instances, {}, [&](std::uint32_t i) { return nearest[i]; });
@@ -34,6 +41,7 @@ Spheres spheresOf(std::span<const cloud::Instance* const> instances, const Camer
         const double radius = 0.5 * instances[i]->diagonal() + instances[i]->voxelEdge();
         result.spheres.push_back({glm::vec3(instances[i]->middle() - camera.position), static_cast<float>(radius), 0.0F,
                                   static_cast<float>(i)});
+        result.nearest.push_back(nearest[i]);
     }
     return result;
 }
@@ -51,26 +59,58 @@ std::vector<glm::vec4> placeTexels(std::span<const cloud::Instance* const> insta
     return texels;
 }
 
+std::uint32_t detailOf(int spacing) {
+    if (spacing >= widestSpacing) return shared::ANY_DETAIL;
+    return spacing > 1 ? shared::DETAIL_OF_SQUARES : shared::DETAIL_OF_PIXELS;
+}
+
+/// The finest of the instances of each tile.
+std::vector<std::uint32_t> detailOf(const TileLists& tiles, std::span<const int> spacings) {
+    std::vector<std::uint32_t> detail(tiles.offsets.size() - 1, shared::ANY_DETAIL);
+    for (std::size_t tile = 0; tile < detail.size(); ++tile)
+        for (std::uint32_t entry = tiles.offsets[tile]; entry < tiles.offsets[tile + 1]; ++entry)
+            detail[tile] = std::max(detail[tile], detailOf(spacings[tiles.lists[entry]]));
+    return detail;
+}
+
+double pixelShareOf(const TileLists& tiles, std::span<const std::uint32_t> detail) {
+    std::size_t shown = 0, drawn = 0;
+    for (std::size_t tile = 0; tile < detail.size(); ++tile) {
+        if (tiles.offsets[tile] == tiles.offsets[tile + 1]) continue;
+        ++shown;
+        if (detail[tile] == shared::DETAIL_OF_PIXELS) ++drawn;
+    }
+    return shown == 0 ? 0.0 : static_cast<double>(drawn) / static_cast<double>(shown);
+}
+
 }  // namespace
 
-InstanceTiles::InstanceTiles(gpu::Context& context, const TileLists& tiles, std::span<const std::uint32_t> lists,
-                             std::span<const glm::vec4> places)
+InstanceTiles::InstanceTiles(gpu::Context& context, const TileLists& tiles, std::span<const glm::uvec2> lists,
+                             std::span<const glm::vec4> places, std::span<const std::uint32_t> detail)
     : across_(tiles.across),
       offsets_(gpu::filledBuffer(context, "tile offsets", tiles.offsets)),
-      lists_(texelBuffer(context, "tile lists", lists, VK_FORMAT_R32_UINT)),
-      places_(texelBuffer(context, "instance places", places, VK_FORMAT_R32G32B32A32_SFLOAT)) {}
+      lists_(texelBuffer(context, "tile lists", lists, VK_FORMAT_R32G32_UINT)),
+      places_(texelBuffer(context, "instance places", places, VK_FORMAT_R32G32B32A32_SFLOAT)),
+      detail_(gpu::filledBuffer(context, "tile detail", std::vector(detail.begin(), detail.end()))) {}
 
 InstanceTiles::InstanceTiles(gpu::Context& context)
-    : InstanceTiles(context, TileLists{0, 0, {0, 0}, {}}, std::span<const std::uint32_t>{},
-                    std::span<const glm::vec4>{}) {}
+    : InstanceTiles(context, TileLists{0, 0, {0, 0}, {}}, std::span<const glm::uvec2>{}, std::span<const glm::vec4>{},
+                    std::vector{shared::ANY_DETAIL}) {}
 
 InstanceTiles::InstanceTiles(gpu::Context& context, std::span<const cloud::Instance* const> instances,
-                             const Camera& camera)
+                             std::span<const int> spacings, const Camera& camera)
     : InstanceTiles([&] {
           const Spheres spheres = spheresOf(instances, camera);
           TileLists tiles = makeTileLists(camera, spheres.spheres);
-          for (std::uint32_t& entry : tiles.lists) entry = spheres.instances[entry];
-          InstanceTiles made(context, tiles, tiles.lists, placeTexels(instances, camera));
+          std::vector<glm::uvec2> lists;
+          for (std::uint32_t& entry : tiles.lists) {
+              const float nearest = spheres.nearest[entry];
+              entry = spheres.instances[entry];
+              lists.emplace_back(entry, std::bit_cast<std::uint32_t>(nearest));
+          }
+          const std::vector<std::uint32_t> detail = detailOf(tiles, spacings);
+          InstanceTiles made(context, tiles, lists, placeTexels(instances, camera), detail);
+          made.pixelShare_ = pixelShareOf(tiles, detail);
           made.listed_.assign(instances.size(), false);
           for (const std::uint32_t instance : tiles.lists) made.listed_[instance] = true;
           return made;

@@ -73,16 +73,18 @@ Band samplingRows(const shared::SamplingGrid& sampling, const Tile& tile, const 
     return {first, last - first + 1};
 }
 
-Interpolation::Interpolation(gpu::Context& context, int spacing)
+Interpolation::Interpolation(gpu::Context& context, int spacing, bool many)
     : context_(context),
       spacing_(spacing),
-      program_(context, "interpolate", spirv::interpolate_comp, {gpu::SpecConstant::of(0, hasRefinement(spacing))}),
+      program_(context, "interpolate", spirv::interpolate_comp,
+               {gpu::SpecConstant::of(0, hasRefinement(spacing)), gpu::SpecConstant::of(4, many)}),
       points_(pixelBuffer(context, "sample points", 0)),
       refined_(pixelBuffer(context, "refined", 0)),
       blocks_(squareList(context, "blocks", 0)),
       cells_(squareList(context, "cells", 0)) {
     if (hasRefinement(spacing))
-        refinedProgram_.emplace(context, "interpolate_refined", spirv::interpolate_refined_comp);
+        refinedProgram_.emplace(context, "interpolate_refined", spirv::interpolate_refined_comp,
+                                std::vector{gpu::SpecConstant::of(4, many)});
 }
 
 void Interpolation::prepare(const shared::SamplingGrid& sampling, int bandRows) {
@@ -124,7 +126,8 @@ shared::DrawPush Interpolation::squares(const Tile& pixels) const {
     return {shared::DRAW_SQUARES, {pixels.x, pixels.y}, {pixels.width, pixels.height}};
 }
 
-void Interpolation::record(gpu::Commands& commands, const DrawInputs& inputs, const Tile& pixels) const {
+void Interpolation::record(gpu::Commands& commands, const DrawInputs& inputs, const InstanceTiles& tiles,
+                           const Tile& pixels) const {
     const shared::InterpolatePush values = push(pixels);
     commands.pass("interpolate");
     commands.dispatch(
@@ -133,20 +136,23 @@ void Interpolation::record(gpu::Commands& commands, const DrawInputs& inputs, co
          {"samplePoints", points_},
          {"Pixels", inputs.pixels},
          {"Blocks", blocks_},
-         {"Refined", refined_}},
+         {"Refined", refined_},
+         {"TileDetail", tiles.detail()}},
         values,
         gpu::linearGroups(static_cast<std::uint64_t>(values.blocks.x) * static_cast<std::uint64_t>(values.blocks.y),
                           64));
 }
 
-void Interpolation::recordRefined(gpu::Commands& commands, const DrawInputs& inputs, const Tile& pixels) const {
+void Interpolation::recordRefined(gpu::Commands& commands, const DrawInputs& inputs, const InstanceTiles& tiles,
+                                  const Tile& pixels) const {
     commands.pass("interpolate refined");
     commands.dispatchIndirect(*refinedProgram_,
                               {{"Params", inputs.params},
                                {"refined", refined_},
                                {"Pixels", inputs.pixels},
                                {"Blocks", blocks_},
-                               {"Cells", cells_}},
+                               {"Cells", cells_},
+                               {"TileDetail", tiles.detail()}},
                               push(pixels), blocks_);
 }
 

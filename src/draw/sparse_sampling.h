@@ -4,6 +4,7 @@
 
 #include "draw/bands.h"
 #include "draw/drawing.h"
+#include "draw/instance_tiles.h"
 #include "gpu/commands.h"
 #include "view/camera.h"
 #include "view/view.h"
@@ -38,16 +39,19 @@ Band samplingRows(const shared::SamplingGrid& sampling, const Tile& tile, const 
 /// squares() by lastList().
 class Interpolation {
   public:
-    Interpolation(gpu::Context& context, int spacing);
+    /// `many`: of several clouds, whose tiles differ in detail.
+    Interpolation(gpu::Context& context, int spacing, bool many);
 
     /// Makes room for bands of so many rows of pixels; before commands are recorded.
     void prepare(const shared::SamplingGrid& sampling, int bandRows);
     /// Empty lists; before commands are recorded.
     void clearLists();
     /// Records the pass over a rectangle of pixels.
-    void record(gpu::Commands& commands, const DrawInputs& inputs, const Tile& pixels) const;
+    void record(gpu::Commands& commands, const DrawInputs& inputs, const InstanceTiles& tiles,
+                const Tile& pixels) const;
     /// Records the pass over what the first one listed.
-    void recordRefined(gpu::Commands& commands, const DrawInputs& inputs, const Tile& pixels) const;
+    void recordRefined(gpu::Commands& commands, const DrawInputs& inputs, const InstanceTiles& tiles,
+                       const Tile& pixels) const;
 
     /// What draws the refined points of blocks(), and the squares that are listed last.
     shared::DrawPush refinedPoints(const Tile& pixels) const;

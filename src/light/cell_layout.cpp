@@ -4,9 +4,7 @@
 
 #include "gpu/commands.h"
 #include "gpu/groups.h"
-#include "gpu/program.h"
 #include "gpu/transfer.h"
-#include "shared/draw.h"
 
 namespace lumulus::light {
 
@@ -17,10 +15,8 @@ namespace spirv {
 }  // namespace spirv
 
 /// Fills the mass of each cell.
-LitCells findLitCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
-                      const gpu::Image& mass) {
-    const gpu::Program<shared::LightMassPush> program(context, "light_mass", spirv::light_mass_comp,
-                                                      {asset.sparseConstant()});
+LitCells findLitCells(gpu::Context& context, const MassProgram& program, const cloud::Asset& asset,
+                      const cloud::CellGrid& grid, const gpu::Image& mass) {
     const cloud::MajorantGrid& majorants = asset.cellImage ? asset.cells : asset.majorants;
     shared::LightMassPush push{};
     push.size = asset.size;
@@ -43,17 +39,23 @@ LitCells findLitCells(gpu::Context& context, const cloud::Asset& asset, const cl
 
 }  // namespace
 
-CellLayout::CellLayout(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& cells)
+const MassProgram& MassProgramOnce::of(gpu::Context& context, const cloud::Asset& asset) {
+    if (!program_) program_.emplace(context, "light_mass", spirv::light_mass_comp, std::vector{asset.sparseConstant()});
+    return *program_;
+}
+
+CellLayout::CellLayout(gpu::Context& context, const MassProgram& program, const cloud::Asset& asset,
+                       const cloud::CellGrid& cells)
     : grid(cells),
       mass(context, "light cell mass", grid.cells, VK_FORMAT_R32_SFLOAT),
-      lit(findLitCells(context, asset, grid, mass)),
+      lit(findLitCells(context, program, asset, grid, mass)),
       litCells(gpu::filledBuffer(context, "lit cells", lit.numbers)) {}
 
 std::shared_ptr<const CellLayout> CellLayouts::of(gpu::Context& context, const cloud::Asset& asset,
                                                   const cloud::CellGrid& grid) {
     const auto known = std::ranges::find_if(known_, [&](const auto& layout) { return layout->grid == grid; });
     if (known != known_.end()) return *known;
-    return known_.emplace_back(std::make_shared<const CellLayout>(context, asset, grid));
+    return known_.emplace_back(std::make_shared<const CellLayout>(context, program_->of(context, asset), asset, grid));
 }
 
 }  // namespace lumulus::light

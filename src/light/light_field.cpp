@@ -58,8 +58,7 @@ cloud::CellGrid coarseLightGrid(const cloud::Asset& cloud, const cloud::CellGrid
 
 LightCells::LightCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
                        const cloud::CellGrid& estimates)
-    : LightCells(context, asset, std::make_shared<const CellLayout>(context, asset, grid), estimates,
-                 asset.voxelToMetres, 0) {}
+    : LightCells(context, asset, CellLayouts().of(context, asset, grid), estimates, asset.voxelToMetres, 0) {}
 
 LightCells::LightCells(gpu::Context& context, const cloud::Asset& asset, std::shared_ptr<const CellLayout> layout,
                        const cloud::CellGrid& estimates, const glm::dmat3& voxelToMetres, std::uint32_t firstCollector,

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "cloud/prepare_programs.h"
 #include "render/world.h"
 #include "vdb/placed_volume.h"
 #include "volume/load.h"
@@ -52,7 +53,8 @@ class AssetMaker {
           pool_(pool),
           options_(options),
           world_(world),
-          report_(report) {}
+          report_(report),
+          programs_(context) {}
 
     void make(const std::vector<Group>& groups);
 
@@ -87,6 +89,7 @@ class AssetMaker {
     const WorldOptions& options_;
     World& world_;
     WorldReport& report_;
+    cloud::PreparePrograms programs_;  ///< held for all assets
 };
 
 }  // namespace lumulus

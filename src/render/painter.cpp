@@ -12,6 +12,14 @@
 
 namespace lumulus {
 
+namespace {
+
+/// Part of the tiles with clouds in which every pixel is drawn, at most: sampling points cost a third of a pixel each
+/// where nothing comes of them.
+constexpr double mostDrawn = 0.75;
+
+}  // namespace
+
 Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& draw)
     : tolerance_(draw.tolerance),
       visible_(world.visible()),
@@ -28,17 +36,23 @@ Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& d
         march_.emplace(context, features_);
 }
 
-int Painter::samplingSpacing(const World& world, const Camera& camera) const {
-    if (tolerance_ <= 0.0) return 1;
-    int spacing = draw::widestSpacing;
+std::vector<int> Painter::spacings(const World& world, const Camera& camera) const {
+    std::vector<int> found;
     for (const std::size_t i : visible_) {
         const cloud::Instance& instance = world.instances[i];
         const double away = glm::length(instance.middle() - camera.position);
         const glm::dvec3 farthest = camera.position + (away + 0.5 * instance.diagonal()) * camera.axes[2];
         const double width = instance.voxelWidth(camera.position);
-        spacing = std::min(spacing, draw::samplingSpacing(width / frame::pixelLength(camera, farthest)));
+        found.push_back(draw::samplingSpacing(width / frame::pixelLength(camera, farthest)));
     }
-    return spacing;
+    return found;
+}
+
+int Painter::samplingSpacing(const World& world, const Camera& camera) const {
+    if (tolerance_ <= 0.0) return 1;
+    const std::vector<int> each = spacings(world, camera);
+    if (!features_.many) return each.front();
+    return std::ranges::max(each) > 1 ? draw::widestSpacing : 1;
 }
 
 Tile Painter::shownPart(const World& world, const ViewState::State& view) const {
@@ -154,7 +168,9 @@ void Painter::fillAtlas(GpuWork& work, ViewState::State& view) const {
 
 void Painter::findShown(gpu::Context& context, const World& world, ViewState::State& view) const {
     view.tiles.reset();
-    if (features_.many) view.tiles.emplace(context, instancesOf(world), view.camera);
+    if (!features_.many) return;
+    view.tiles.emplace(context, instancesOf(world), spacings(world, view.camera), view.camera);
+    if (view.tiles->pixelShare() > mostDrawn) view.spacing = 1;
 }
 
 void Painter::prepare(GpuWork& work, ViewState::State& view) const {
@@ -186,13 +202,14 @@ void Painter::recordBlocks(gpu::Commands& commands, const draw::DrawInputs& inpu
         commands.barrier("sample points");
         view.sampledRowsDrawn = end;
     }
-    interpolation.record(commands, inputs, pixels);
+    const draw::InstanceTiles& tiles = view.tiles ? *view.tiles : noTiles_;
+    interpolation.record(commands, inputs, tiles, pixels);
     commands.barrier("blocks");
     if (draw::hasRefinement(view.spacing)) {
         recordPixels(commands, into(interpolation.refined(), interpolation.blocks()), view,
                      interpolation.refinedPoints(pixels));
         commands.barrier("refined points");
-        interpolation.recordRefined(commands, inputs, pixels);
+        interpolation.recordRefined(commands, inputs, tiles, pixels);
         commands.barrier("cells");
     }
     recordPixels(commands, into(inputs.pixels, interpolation.lastList()), view, interpolation.squares(pixels));
@@ -235,7 +252,8 @@ void Painter::paint(GpuWork& work, const World& world, ViewState::State& view, c
     for (std::size_t place = 0; place < visible_.size(); ++place)
         instances.mapped<shared::InstanceParams>()[place] = instanceParams(world, view, place);
     if (view.spacing > 1) {
-        auto& interpolation = view.interpolations.try_emplace(view.spacing, context, view.spacing).first->second;
+        auto& interpolation =
+            view.interpolations.try_emplace(view.spacing, context, view.spacing, features_.many).first->second;
         interpolation.prepare(values.sampling, rows);
         view.sampledRowsDrawn = 0;
     }

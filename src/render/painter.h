@@ -23,13 +23,14 @@ class Painter {
     Painter(gpu::Context& context, const World& world, const scene::Draw& draw);
 
     /// Spacing in pixels of the points of sparse sampling for a view, chosen so that the farthest voxels still cover
-    /// it.
+    /// it; of several clouds the widest, as tiles with smaller voxels are drawn more finely (findShown()).
     int samplingSpacing(const World& world, const Camera& camera) const;
     /// The part of the view's tile in which clouds may be seen. Voxels reach half a voxel farther than their bounds,
     /// billboards as far as the largest.
     Tile shownPart(const World& world, const ViewState::State& view) const;
 
-    /// Finds which pixels may show which instance, before lightView(), which leaves out what is not seen.
+    /// Finds which pixels may show which instance, and whether sampling pays, before lightView(), which leaves out what
+    /// is not seen.
     void findShown(gpu::Context& context, const World& world, ViewState::State& view) const;
     /// Sorts and uploads what the camera of the view needs, after lightView() and before paint().
     void prepare(GpuWork& work, ViewState::State& view) const;
@@ -41,6 +42,8 @@ class Painter {
     /// What one picture's passes bind.
     struct Picture;
 
+    /// How far apart sampling points may lie on each of visible_.
+    std::vector<int> spacings(const World& world, const Camera& camera) const;
     draw::Volumes volumes(const World& world, const ViewState::State& view, const gpu::Image& sunColours,
                           const gpu::Image& skyReturn) const;
     shared::InstanceParams instanceParams(const World& world, const ViewState::State& view, std::size_t place) const;

@@ -207,9 +207,12 @@ void Maker::lightUp() {
     }
     bool scatters = false;
     std::unordered_map<const cloud::Asset*, std::shared_ptr<light::CellLayouts>> layouts;
+    const auto massProgram = std::make_shared<light::MassProgramOnce>();
     for (const std::size_t i : visible) {
         const cloud::Instance& instance = world_.instances[i];
-        world_.light[i].layouts = layouts.try_emplace(instance.asset, world_.light[i].layouts).first->second;
+        const auto [of, isNew] = layouts.try_emplace(instance.asset);
+        if (isNew) of->second = std::make_shared<light::CellLayouts>(massProgram);
+        world_.light[i].layouts = of->second;
         const bool shades = visible.size() > 1 || instance.medium.scatters();
         scatters = scatters || instance.medium.scatters();
         if (shades && world_.lights.hasSun())

@@ -144,5 +144,48 @@ TEST(SparseSamplingPasses, AreThereOnlyWhereVoxelsAreLarger) {
     EXPECT_THAT(drawn(scene, 0.2).passes(), testing::Not(testing::Contains("interpolate")));
 }
 
+/// The ball, and small ones far away: beside it and, seen past its rim, behind it.
+scene::Scene nearAndFar(scene::DrawMode mode) {
+    scene::Scene scene = closeScene(mode);
+    scene.clouds[0].resolution = 16;  // voxels of about five pixels
+    scene.camera.position = dvec3(0.0, 100.0, 500.0);
+    scene.camera.target = dvec3(0.0, 100.0, 0.0);
+    scene.camera.verticalFov = 36.0;
+    for (const double across : {1750.0, -950.0}) {
+        scene.clouds.push_back(scene.clouds[0]);
+        scene.clouds.back().transform[3] = glm::dvec4(across, 0.0, -4500.0, 1.0);
+    }
+    return scene;
+}
+
+/// Of several clouds each tile is drawn as finely as the smallest voxels in it ask for.
+TEST_P(SparseSampling, OfSeveralCloudsIsAsFineAsEachNeeds) {
+    const scene::Scene scene = nearAndFar(GetParam());
+    const Frame every = drawn(scene, 0.0), some = drawn(scene, 0.2);
+    EXPECT_THAT(some.passes(), testing::Contains("interpolate"));
+    for (const char* layer : {"R", "cloud.G", "transmittance.B", "cloud.A"}) {
+        const double found = difference(some.image, every.image, layer);
+        EXPECT_GT(found, 0.0) << layer;
+        EXPECT_LT(found, 0.01) << layer;
+    }
+    // billboards of so few voxels bend more sharply, those of the ball alone too
+    if (GetParam() == scene::DrawMode::march) expectWithinTolerance(some.image, every.image, 0.2);
+    const glm::ivec2 middle(100 + static_cast<int>(1750.0 / 5000.0 * 75.0 / std::tan(18.0 * 3.14159265 / 180.0)), 75);
+    std::size_t cloudy = 0;
+    for (int y = middle.y - 5; y <= middle.y + 5; ++y)
+        for (int x = middle.x - 5; x <= middle.x + 5; ++x) {
+            const auto i = static_cast<std::size_t>(y * 200 + x);
+            if (value(every.image, "cloud.A", i) > 0.0) ++cloudy;
+            ASSERT_EQ(value(some.image, "cloud.G", i), value(every.image, "cloud.G", i)) << x << " " << y;
+        }
+    EXPECT_GT(cloudy, 30U);
+}
+
+TEST(SparseSamplingPasses, AreLeftOutWhereAllCloudsAreFar) {
+    scene::Scene scene = nearAndFar(scene::DrawMode::march);
+    scene.clouds.erase(scene.clouds.begin());
+    EXPECT_THAT(drawn(scene, 0.2).passes(), testing::Not(testing::Contains("interpolate")));
+}
+
 }  // namespace
 }  // namespace lumulus
