@@ -28,6 +28,7 @@ layout(binding = 7) uniform sampler3D density;
 layout(binding = 8, r32f) readonly uniform image3D majorants;  // normalised; negative: distances in empty space
 layout(binding = 9, scalar) readonly buffer Blocks { uvec3 blockGroups; uint blockCount; uint blocks[]; };
 layout(binding = 13) uniform sampler2D sunColours;
+layout(binding = 17, scalar) readonly buffer TileDetail { uint tileDetail[]; };
 layout(push_constant, scalar) uniform Push { DrawPush push; };
 
 // Held in registers: a load from a buffer costs a loop over the lanes on lavapipe, in every step.
@@ -36,6 +37,7 @@ DrawParams params;
 #include "lib/pixel.glsl"
 #include "lib/ray_segment.glsl"
 #include "lib/instance_tiles.glsl"
+#include "lib/tile_detail.glsl"
 
 /// Optical thickness that a first step may have at most, by the cell's majorant.
 const float STEP_THICKNESS = 0.5;
@@ -158,16 +160,20 @@ void main() {
     int slot;
     if (!drawnPixel(pixel, slot)) return;
     InstanceRange range = InstanceRange(0, 0);
-    if (MANY) range = instancesOf(pixel);
+    int samples = params.samples;
+    if (MANY) {
+        range = instancesOf(pixel);
+        samples = raysAt(pixel);
+    }
     PixelSum sum = emptyPixel();
-    for (int i = 0; i < params.samples * params.samples; ++i) {
-        const ivec2 fine = pixel * params.samples + ivec2(i % params.samples, i / params.samples);
+    for (int i = 0; i < samples * samples; ++i) {
+        const ivec2 fine = pixel * samples + ivec2(i % samples, i / samples);
         vec3 origin, direction;
-        viewRay(params.view, fine, params.samples, origin, direction);
+        viewRay(params.view, fine, samples, origin, direction);
         // interleaved gradient noise (Jimenez 2014): neighbours differ as much as they can
         const float offset = fract(52.9829189 * fract(dot(vec2(fine) + 0.5, vec2(0.06711056, 0.00583715))));
         addRay(sum, march(range, origin, direction, offset), direction);
     }
-    const Pixel finished = finishedPixel(sum, params.samples * params.samples);
+    const Pixel finished = finishedPixel(sum, samples * samples);
     STORE_PIXEL(pixels, slot, finished);
 }

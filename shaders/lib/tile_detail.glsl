@@ -5,10 +5,15 @@
 
 #include "shared/draw.h"
 
-uint detailAt(ivec2 pixel) {
+uint tileDetailAt(ivec2 pixel) {
     const ivec2 tile = pixel / TILE_EDGE;
     return tileDetail[tile.y * params.tilesAcross + tile.x];
 }
+
+/// Rays of a pixel along a side.
+int raysAt(ivec2 pixel) { return int(tileDetailAt(pixel) >> DETAIL_RAYS_SHIFT); }
+
+uint detailAt(ivec2 pixel) { return tileDetailAt(pixel) & 3u; }
 
 /// The finest at the corners of a square of `spacing` pixels.
 uint detailOf(ivec2 square, int spacing) {

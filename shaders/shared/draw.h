@@ -53,10 +53,12 @@ struct DrawParams {
     mat3 skyAxes;          // from the frame of skyReturn to the world
 };
 
-/// How fine a tile of a picture of several clouds is: points may lie as far apart as they do, two pixels, or one.
+/// How fine a tile of a picture of several clouds is. In the lower bits: points may lie as far apart as they do, two
+/// pixels, or one; above them: rays of each pixel along a side.
 const uint ANY_DETAIL = 0U;
 const uint DETAIL_OF_SQUARES = 1U;
 const uint DETAIL_OF_PIXELS = 2U;
+const uint DETAIL_RAYS_SHIFT = 2U;
 
 /// Which pixels a dispatch draws: a rectangle of them; a rectangle of sampling points; of a rectangle the pixels in
 /// listed squares of two by two; or, of a rectangle of every second pixel of every second row, those in listed blocks

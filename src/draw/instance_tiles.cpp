@@ -65,11 +65,17 @@ std::uint32_t detailOf(int spacing) {
 }
 
 /// The finest of the instances of each tile.
-std::vector<std::uint32_t> detailOf(const TileLists& tiles, std::span<const int> spacings) {
-    std::vector<std::uint32_t> detail(tiles.offsets.size() - 1, shared::ANY_DETAIL);
-    for (std::size_t tile = 0; tile < detail.size(); ++tile)
-        for (std::uint32_t entry = tiles.offsets[tile]; entry < tiles.offsets[tile + 1]; ++entry)
-            detail[tile] = std::max(detail[tile], detailOf(spacings[tiles.lists[entry]]));
+std::vector<std::uint32_t> detailOf(const TileLists& tiles, std::span<const Fineness> fineness) {
+    std::vector<std::uint32_t> detail;
+    for (std::size_t tile = 0; tile + 1 < tiles.offsets.size(); ++tile) {
+        std::uint32_t finest = shared::ANY_DETAIL, rays = 1;
+        for (std::uint32_t entry = tiles.offsets[tile]; entry < tiles.offsets[tile + 1]; ++entry) {
+            const Fineness& one = fineness[tiles.lists[entry]];
+            finest = std::max(finest, detailOf(one.spacing));
+            rays = std::max(rays, static_cast<std::uint32_t>(one.rays));
+        }
+        detail.push_back(finest | rays << shared::DETAIL_RAYS_SHIFT);
+    }
     return detail;
 }
 
@@ -78,7 +84,7 @@ double pixelShareOf(const TileLists& tiles, std::span<const std::uint32_t> detai
     for (std::size_t tile = 0; tile < detail.size(); ++tile) {
         if (tiles.offsets[tile] == tiles.offsets[tile + 1]) continue;
         ++shown;
-        if (detail[tile] == shared::DETAIL_OF_PIXELS) ++drawn;
+        if ((detail[tile] & 3U) == shared::DETAIL_OF_PIXELS) ++drawn;
     }
     return shown == 0 ? 0.0 : static_cast<double>(drawn) / static_cast<double>(shown);
 }
@@ -95,10 +101,10 @@ InstanceTiles::InstanceTiles(gpu::Context& context, const TileLists& tiles, std:
 
 InstanceTiles::InstanceTiles(gpu::Context& context)
     : InstanceTiles(context, TileLists{0, 0, {0, 0}, {}}, std::span<const glm::uvec2>{}, std::span<const glm::vec4>{},
-                    std::vector{shared::ANY_DETAIL}) {}
+                    std::vector{1U << shared::DETAIL_RAYS_SHIFT}) {}
 
 InstanceTiles::InstanceTiles(gpu::Context& context, std::span<const cloud::Instance* const> instances,
-                             std::span<const int> spacings, const Camera& camera)
+                             std::span<const Fineness> fineness, const Camera& camera)
     : InstanceTiles([&] {
           const Spheres spheres = spheresOf(instances, camera);
           TileLists tiles = makeTileLists(camera, spheres.spheres);
@@ -108,7 +114,7 @@ InstanceTiles::InstanceTiles(gpu::Context& context, std::span<const cloud::Insta
               entry = spheres.instances[entry];
               lists.emplace_back(entry, std::bit_cast<std::uint32_t>(nearest));
           }
-          const std::vector<std::uint32_t> detail = detailOf(tiles, spacings);
+          const std::vector<std::uint32_t> detail = detailOf(tiles, fineness);
           InstanceTiles made(context, tiles, lists, placeTexels(instances, camera), detail);
           made.pixelShare_ = pixelShareOf(tiles, detail);
           made.listed_.assign(instances.size(), false);

@@ -10,13 +10,18 @@
 
 namespace lumulus::draw {
 
+/// How finely an instance is to be drawn.
+struct Fineness {
+    int spacing = 1;  ///< of sampling points, pixels (samplingSpacing())
+    int rays = 1;     ///< of a pixel, along each side
+};
+
 /// Which instances each tile of pixels may show, nearest first, for rays that go through several.
 class InstanceTiles {
   public:
-    /// Of all instances, as a camera sees them: they have assets. `spacings`: how far apart sampling points may lie on
-    /// each (samplingSpacing()). Uploads.
+    /// Of all instances, as a camera sees them: they have assets. Uploads.
     InstanceTiles(gpu::Context& context, std::span<const cloud::Instance* const> instances,
-                  std::span<const int> spacings, const Camera& camera);
+                  std::span<const Fineness> fineness, const Camera& camera);
     /// Stands for the lists where there is one instance: shaders never read it, but bindings must be there.
     explicit InstanceTiles(gpu::Context& context);
 

@@ -24,6 +24,7 @@ void March::record(gpu::Commands& commands, const DrawInputs& inputs, const Inst
     std::vector<gpu::Binding> bindings = inputs.bindings();
     bindings.emplace_back("majorants", inputs.volumes.majorants);
     tiles.addBindings(bindings);
+    bindings.emplace_back("TileDetail", tiles.detail());
     commands.pass("march");
     dispatchDrawing(commands, program_, bindings, inputs.squares, push);
 }

@@ -36,23 +36,31 @@ Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& d
         march_.emplace(context, features_);
 }
 
-std::vector<int> Painter::spacings(const World& world, const Camera& camera) const {
-    std::vector<int> found;
+int raysOf(const World& world, std::size_t instance, const Camera& camera) {
+    // levels of detail have voxels of half a pixel to a whole one, which one ray sees well enough
+    const double voxels = world.levelsOfDetail ? 2.0 : 1.0;
+    const cloud::Instance& of = world.instances[instance];
+    return frame::raysAcross(voxels * of.voxelWidth(camera.position) / frame::pixelLength(camera, of.middle()));
+}
+
+std::vector<draw::Fineness> Painter::fineness(const World& world, const Camera& camera, int mostRays) const {
+    std::vector<draw::Fineness> found;
     for (const std::size_t i : visible_) {
         const cloud::Instance& instance = world.instances[i];
         const double away = glm::length(instance.middle() - camera.position);
         const glm::dvec3 farthest = camera.position + (away + 0.5 * instance.diagonal()) * camera.axes[2];
         const double width = instance.voxelWidth(camera.position);
-        found.push_back(draw::samplingSpacing(width / frame::pixelLength(camera, farthest)));
+        found.push_back({draw::samplingSpacing(width / frame::pixelLength(camera, farthest)),
+                         std::min(mostRays, raysOf(world, i, camera))});
     }
     return found;
 }
 
 int Painter::samplingSpacing(const World& world, const Camera& camera) const {
     if (tolerance_ <= 0.0) return 1;
-    const std::vector<int> each = spacings(world, camera);
-    if (!features_.many) return each.front();
-    return std::ranges::max(each) > 1 ? draw::widestSpacing : 1;
+    const std::vector<draw::Fineness> each = fineness(world, camera, 1);
+    if (!features_.many) return each.front().spacing;
+    return std::ranges::max(each, {}, &draw::Fineness::spacing).spacing > 1 ? draw::widestSpacing : 1;
 }
 
 Tile Painter::shownPart(const World& world, const ViewState::State& view) const {
@@ -169,7 +177,7 @@ void Painter::fillAtlas(GpuWork& work, ViewState::State& view) const {
 void Painter::findShown(gpu::Context& context, const World& world, ViewState::State& view) const {
     view.tiles.reset();
     if (!features_.many) return;
-    view.tiles.emplace(context, instancesOf(world), spacings(world, view.camera), view.camera);
+    view.tiles.emplace(context, instancesOf(world), fineness(world, view.camera, view.raysAcross), view.camera);
     if (view.tiles->pixelShare() > mostDrawn) view.spacing = 1;
 }
 

@@ -16,6 +16,9 @@
 
 namespace lumulus {
 
+/// Rays along each side of a pixel that an instance needs: more than one where voxels are smaller than pixels.
+int raysOf(const World& world, std::size_t instance, const Camera& camera);
+
 /// Draws the clouds of a world: the programs of the scene's way to draw, and what they bind that no view changes.
 class Painter {
   public:
@@ -42,8 +45,8 @@ class Painter {
     /// What one picture's passes bind.
     struct Picture;
 
-    /// How far apart sampling points may lie on each of visible_.
-    std::vector<int> spacings(const World& world, const Camera& camera) const;
+    /// How finely each of visible_ is to be drawn, with `mostRays` along a side of a pixel.
+    std::vector<draw::Fineness> fineness(const World& world, const Camera& camera, int mostRays) const;
     draw::Volumes volumes(const World& world, const ViewState::State& view, const gpu::Image& sunColours,
                           const gpu::Image& skyReturn) const;
     shared::InstanceParams instanceParams(const World& world, const ViewState::State& view, std::size_t place) const;

@@ -184,13 +184,7 @@ const Bounds& Renderer::bounds() const {
 
 int Renderer::State::raysAcross(const Camera& seen, int most) const {
     int rays = 1;
-    // levels of detail have voxels of half a pixel to a whole one, which one ray sees well enough
-    const double voxels = world->levelsOfDetail ? 2.0 : 1.0;
-    for (const std::size_t i : world->visible()) {
-        const cloud::Instance& instance = world->instances[i];
-        const double pixel = frame::pixelLength(seen, instance.middle());
-        rays = std::max(rays, frame::raysAcross(voxels * instance.voxelWidth(seen.position) / pixel));
-    }
+    for (const std::size_t i : world->visible()) rays = std::max(rays, raysOf(*world, i, seen));
     return std::min(most, rays);
 }
 

@@ -181,6 +181,31 @@ TEST_P(SparseSampling, OfSeveralCloudsIsAsFineAsEachNeeds) {
     EXPECT_GT(cloudy, 30U);
 }
 
+/// Voxels below a pixel need several rays, in the tiles where they are seen and not in all of the picture: the near
+/// ball looks as it does alone.
+TEST(RaysOfPixels, AreThoseOfTheTile) {
+    scene::Scene scene = nearAndFar(scene::DrawMode::march);
+    scene.preparation.levelOfDetail = false;
+    const LayeredImage both = drawn(scene, 0.0).image;
+    scene.clouds.resize(1);
+    const LayeredImage alone = drawn(scene, 0.0).image;
+    std::size_t compared = 0;
+    for (int y = 0; y < alone.height; ++y)
+        for (int x = 0; x < 40; ++x) {  // left of the far ones
+            const auto i = static_cast<std::size_t>(y * alone.width + x);
+            for (const char* layer : {"transmittance.R", "cloud.A"})
+                ASSERT_NEAR(value(both, layer, i), value(alone, layer, i), 1e-5) << layer << " " << x << " " << y;
+            if (value(alone, "cloud.A", i) > 0.0) ++compared;
+        }
+    for (int y = 0; y < alone.height; ++y)  // and above them
+        for (int x = 90; x < 110; ++x) {
+            const auto i = static_cast<std::size_t>(y * alone.width + x);
+            ASSERT_NEAR(value(both, "transmittance.R", i), value(alone, "transmittance.R", i), 1e-5) << x << " " << y;
+            if (value(alone, "cloud.A", i) > 0.0) ++compared;
+        }
+    EXPECT_GT(compared, 1000U);
+}
+
 TEST(SparseSamplingPasses, AreLeftOutWhereAllCloudsAreFar) {
     scene::Scene scene = nearAndFar(scene::DrawMode::march);
     scene.clouds.erase(scene.clouds.begin());
