@@ -66,7 +66,14 @@ IndexBox Examiner::cropped(const Survey& survey, bool hasActive) {
     if (apart.voxels > 0)
         warn(fmt::format("{}: {} with {:.2g} of its mass, far from the rest, left out: one at ({}, {}, {})", grid_,
                          counted(apart.voxels), apart.share, apart.at.x, apart.at.y, apart.at.z));
-    return apart.kept;
+    if (!options_.part) return apart.kept;
+    const IndexBox part = intersect({(*options_.part)[0], (*options_.part)[1]}, apart.kept);
+    IndexBox box;
+    for (const BlockContent& block : survey.blocks) {
+        const IndexBox within = intersect(block.occupied, part);
+        if (!block.occupied.empty() && !within.empty()) include(box, within);
+    }
+    return box.empty() ? IndexBox{part.minimum, part.minimum} : box;
 }
 
 }  // namespace lumulus::vdb

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +17,10 @@ struct LoadOptions {
     double memoryBudgetMiB = 512.0;  ///< for the dense volume at 2 bytes a voxel (R16F on the GPU)
     int maxExtent = 2048;            ///< voxels along a side, with the ring (a limit of 3D textures)
     bool clamp = false;              ///< values that are no densities become 0, however large they are
-    std::string keys = "cloud.0";    ///< where the cloud's keys stand, for messages
-    ReadLimits limits;               ///< of reading and resampling
+    std::optional<std::array<glm::ivec3, 2>> part =
+        {};                        ///< first and last index of what is taken; none: all of the grid
+    std::string keys = "cloud.0";  ///< where the cloud's keys stand, for messages
+    ReadLimits limits;             ///< of reading and resampling
 };
 
 struct LoadResult {

@@ -27,6 +27,10 @@ glm::ivec3 toGlm(const openvdb::Coord& at) {
     return {at.x(), at.y(), at.z()};
 }
 
+openvdb::Coord toCoord(const glm::ivec3& at) {
+    return {at.x, at.y, at.z};
+}
+
 /// The brick that holds an index coordinate, counted from that of the index (0,0,0).
 glm::ivec3 brickOf(const glm::ivec3& at) {
     return at >> 3;
@@ -192,13 +196,16 @@ GridOutline outline(const std::filesystem::path& path, const LoadOptions& option
         file.hasStream(choice.index) ? file.readStructure(choice.index) : asFloats(file.read(choice.index));
     GridOutline outline;
     openvdb::CoordBBox box;
-    grid->tree().evalLeafBoundingBox(box);
+    const auto take = [&](const openvdb::CoordBBox& node) {
+        openvdb::CoordBBox taken = node;
+        if (options.part) taken.intersect({toCoord((*options.part)[0]), toCoord((*options.part)[1])});
+        if (taken.empty()) return;
+        box.expand(taken);
+        outline.bricks += bricksIn(taken);
+    };
+    for (auto leaf = grid->tree().cbeginLeaf(); leaf; ++leaf) take(leaf->getNodeBoundingBox());
+    forTiles(grid->tree().root(), [&](const openvdb::CoordBBox& tile, float) { take(tile); });
     if (box.empty()) return outline;
-    outline.bricks = static_cast<double>(grid->tree().leafCount());
-    forTiles(grid->tree().root(), [&](const openvdb::CoordBBox& tile, float) {
-        box.expand(tile);
-        outline.bricks += bricksIn(tile);
-    });
     const glm::i64vec3 extent = glm::i64vec3(toGlm(box.max())) - glm::i64vec3(toGlm(box.min())) + std::int64_t{3};
     outline.longest = std::max({extent.x, extent.y, extent.z});
     outline.filled = outline.bricks / std::max(bricksIn(box), 1.0);

@@ -20,6 +20,7 @@
 #include "cli/output.h"
 #include "gpu/device.h"
 #include "scene/load.h"
+#include "volume/far_parts.h"
 #include "volume/place_clouds.h"
 
 namespace lumulus::cli {
@@ -48,8 +49,8 @@ std::optional<std::uint64_t> seedOf(const LayeredImage& reference) {
 
 void runBench(const BenchOptions& options) {
     const std::vector<double> budgets = bench::orderedBudgets(options.seconds);
-    const scene::Scene scene = placeClouds(scene::loadScene(options.scene, options.overrides, std::nullopt,
-                                                            static_cast<double>(options.frame.value_or(0))));
+    const scene::Scene scene = divideFarParts(placeClouds(scene::loadScene(
+        options.scene, options.overrides, std::nullopt, static_cast<double>(options.frame.value_or(0)))));
     LayeredImage picture = readExr(options.reference);
     const std::vector<std::uint64_t> seeds = bench::seedsWithout(scene.photonMap.seed, options.seeds, seedOf(picture));
     const bench::Truth truth = bench::makeTruth(std::move(picture), options.reference.string(), scene.image.width,

@@ -25,6 +25,7 @@
 #include "reference/render.h"
 #include "scene/fog_bounds.h"
 #include "scene/load.h"
+#include "volume/far_parts.h"
 #include "volume/load.h"
 #include "volume/place_clouds.h"
 #include "volume/summary.h"
@@ -44,7 +45,7 @@ scene::Scene sceneOf(const ReferenceOptions& options) {
     scene::Scene scene =
         scene::loadScene(options.scene, overrides, std::nullopt, static_cast<double>(options.frame.value_or(0)));
     scene::requireBoundedFog(scene);
-    return placeClouds(std::move(scene));
+    return divideFarParts(placeClouds(std::move(scene)));
 }
 
 void checkOptions(const ReferenceOptions& options) {

@@ -25,6 +25,7 @@
 #include "render/renderer.h"
 #include "scene/fog_bounds.h"
 #include "scene/load.h"
+#include "volume/far_parts.h"
 #include "volume/place_clouds.h"
 
 namespace lumulus::cli {
@@ -55,7 +56,7 @@ scene::Scene sceneOf(const RenderOptions& options) {
     if (options.seed) overrides.push_back("photon_map.seed=" + std::to_string(*options.seed));
     scene::Scene scene = scene::loadScene(options.scene, overrides, options.quality);
     scene::requireBoundedFog(scene);
-    return placeClouds(std::move(scene));
+    return divideFarParts(placeClouds(std::move(scene)));
 }
 
 void requirePositive(const std::optional<double>& value, const char* option) {

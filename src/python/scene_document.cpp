@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "scene/fog_bounds.h"
+#include "volume/far_parts.h"
 #include "volume/place_clouds.h"
 
 namespace lumulus::python {
@@ -46,7 +47,7 @@ void SceneDocument::setDensity(std::shared_ptr<const scene::Voxels> voxels, cons
 
 scene::Scene SceneDocument::placed() const {
     scene::requireBoundedFog(scene_);
-    return placeClouds(scene_);
+    return divideFarParts(placeClouds(scene_));
 }
 
 }  // namespace lumulus::python

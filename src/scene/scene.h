@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -98,6 +99,7 @@ struct Cloud {
     std::optional<Wind> velocity;          ///< of what is in the files, where they do not tell; by their own heights
     std::string held;                      ///< the file that is missing, where the one before it stands for it
     bool clamp = false;                    ///< values of the grid that are no densities become 0
+    std::optional<std::array<glm::ivec3, 2>> part;  ///< first and last voxel of the grid that it shows; none: all
     std::string procedural = "cumulus";
     int resolution = 192;  ///< voxels along the longest side of a procedural cloud
     std::uint64_t seed = 1;

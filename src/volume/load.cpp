@@ -35,6 +35,7 @@ vdb::LoadResult load(const scene::Cloud& cloud, std::size_t index, double memory
         const vdb::LoadOptions options{.grid = cloud.grid,
                                        .memoryBudgetMiB = memoryBudget,
                                        .clamp = cloud.clamp,
+                                       .part = cloud.part,
                                        .keys = "cloud." + std::to_string(index),
                                        .limits = limits};
         const bool between = cloud.moment && !cloud.moment->next.empty();
@@ -183,7 +184,10 @@ CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const C
     for (Source& source : sources) {
         for (const std::string& warning : source.loaded.warnings) {
             const bool alone = scene.clouds.size() == 1;
-            result.warnings.push_back(alone ? warning : keysOf(scene, source.index) + ": " + warning);
+            std::string text = alone ? warning : keysOf(scene, source.index) + ": " + warning;
+            // parts of a file say the same
+            if (std::ranges::find(result.warnings, text) == result.warnings.end())
+                result.warnings.push_back(std::move(text));
         }
         result.volumes.push_back(source.volume);
         if (sparse) result.bricks.push_back(std::move(source.bricks));

@@ -23,6 +23,7 @@ constexpr std::uint64_t mostPoolBytes = std::uint64_t{1} << 30U;
 vdb::LoadOptions optionsOf(const Source& source, const vdb::ReadLimits& limits) {
     return {.grid = source.cloud->grid,
             .clamp = source.cloud->clamp,
+            .part = source.cloud->part,
             .keys = "cloud." + std::to_string(source.index),
             .limits = limits};
 }

@@ -22,7 +22,7 @@ inline auto sourceOf(const scene::Cloud& cloud) {
     const bool between = file && cloud.moment && !cloud.moment->next.empty();
     return std::tuple(cloud.voxels, file ? cloud.vdb : std::filesystem::path(), file ? cloud.grid : std::string(),
                       made ? cloud.procedural : std::string(), made ? cloud.resolution : 0, made ? cloud.seed : 0,
-                      !made && cloud.clamp, between ? cloud.moment->file : 0.0,
+                      !made && cloud.clamp, file ? cloud.part : std::nullopt, between ? cloud.moment->file : 0.0,
                       between ? cloud.velocity : std::optional<scene::Wind>());
 }
 
