@@ -22,18 +22,6 @@ using gpu::Sampler;
 /// Edge of a majorant cell, in blocks.
 constexpr int majorantCell = 2;
 
-VkFormat formatOf(vdb::DensityFormat format) {
-    switch (format) {
-        case vdb::DensityFormat::r8:
-            return VK_FORMAT_R8_UNORM;
-        case vdb::DensityFormat::r16f:
-            return VK_FORMAT_R16_SFLOAT;
-        case vdb::DensityFormat::r32f:
-            break;
-    }
-    return VK_FORMAT_R32_SFLOAT;
-}
-
 gpu::Image uploadDensity(gpu::Context& context, const vdb::QuantisedVolume& quantised, const glm::ivec3& size) {
     gpu::Image image(context, "density", size, formatOf(quantised.format));
     gpu::upload(context, image, quantised.texels);
@@ -98,6 +86,20 @@ MajorantGrid fineBlocks(gpu::Context& context, const DensityImages& images, cons
     return {blocks, glm::vec3(static_cast<float>(fineEdge)), {found.begin(), found.end()}};
 }
 
+}  // namespace
+
+VkFormat formatOf(vdb::DensityFormat format) {
+    switch (format) {
+        case vdb::DensityFormat::r8:
+            return VK_FORMAT_R8_UNORM;
+        case vdb::DensityFormat::r16f:
+            return VK_FORMAT_R16_SFLOAT;
+        case vdb::DensityFormat::r32f:
+            break;
+    }
+    return VK_FORMAT_R32_SFLOAT;
+}
+
 gpu::Image indexCollectors(gpu::Context& context, const glm::ivec3& size, const gpu::Buffer& leafBuffer,
                            const std::vector<std::uint32_t>& numbers, std::size_t collectors) {
     const gpu::Program<shared::LeafPush> program(context, "leaf_index", spirv::leaf_index_comp);
@@ -114,8 +116,6 @@ gpu::Image indexCollectors(gpu::Context& context, const glm::ivec3& size, const 
     commands.wait();
     return index;
 }
-
-}  // namespace
 
 Asset prepare(gpu::Context& context, const vdb::PlacedVolume& placed, const PrepareOptions& options) {
     StepWatch watch(options.check);
