@@ -3,7 +3,20 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME lumulus)
 set(CPACK_PACKAGE_VENDOR "The Lumulus authors")
-set(CPACK_PACKAGE_CONTACT "The Lumulus authors <maintainers@lumulus.invalid>")
+# Who makes a package maintains it, and is named as by Debian's own tools: DEBFULLNAME and DEBEMAIL. Where they are not
+# set, the package is for this machine, and so is the address.
+set(maintainer "Local build")
+cmake_host_system_information(RESULT host QUERY FQDN)
+if(NOT host MATCHES "\\.")
+  string(APPEND host ".local")
+endif()
+set(address "nobody@${host}")
+if(NOT "$ENV{DEBFULLNAME}" STREQUAL "" AND NOT "$ENV{DEBEMAIL}" STREQUAL "")
+  set(maintainer "$ENV{DEBFULLNAME}")
+  set(address "$ENV{DEBEMAIL}")
+endif()
+set(LUMULUS_MAINTAINER "${maintainer} <${address}>" CACHE STRING "Maintainer of the Debian package: NAME <ADDRESS>")
+set(CPACK_PACKAGE_CONTACT "${LUMULUS_MAINTAINER}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "renderer of clouds, fog and air by photon maps")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 "Lumulus renders clouds from OpenVDB density grids or procedural shapes, with

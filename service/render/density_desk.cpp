@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 #include <utility>
 
 #include "base/error.h"
@@ -52,19 +53,22 @@ std::vector<LoadJob> DensityDesk::takeWhere(const Condition& condition) {
     return jobs;
 }
 
-std::vector<LoadJob> DensityDesk::take(ClientId client) {
-    return takeWhere([client](const LoadJob& job) { return job.client == client; });
+std::vector<LoadJob> DensityDesk::take(ClientId client, std::optional<std::uint64_t> id) {
+    return takeWhere([&](const LoadJob& job) { return job.client == client && (!id || job.id == *id); });
 }
 
 std::vector<LoadJob> DensityDesk::takeAll() {
     return takeWhere([](const LoadJob&) { return true; });
 }
 
-SceneBefore DensityDesk::before(const LoadJob& job, const std::function<void()>& check) {
+/// Lets the render thread do work on the scene that the client sees. Both own the work, which may go on where `check`
+/// throws.
+void DensityDesk::ask(const LoadJob& job, const std::function<void()>& check, std::function<void(SceneSlot&)> work) {
     constexpr auto pause = std::chrono::milliseconds(5);
     const auto asked = std::make_shared<Asked>();
     asked->job = job;
-    std::future<SceneBefore> answer = asked->answer.get_future();
+    asked->work = std::move(work);
+    std::future<void> answer = asked->answer.get_future();
     {
         const std::lock_guard lock(host_.mutex);
         asked_.push_back(asked);
@@ -77,7 +81,49 @@ SceneBefore DensityDesk::before(const LoadJob& job, const std::function<void()>&
         std::erase(asked_, asked);
         throw;
     }
-    return answer.get();
+    answer.get();
+}
+
+/// Errors: RequestError `busy`.
+MemoryBudget::Share DensityDesk::roomFor(std::uint64_t bytes) {
+    std::optional<MemoryBudget::Share> share;
+    makeRoom(host_.mutex, host_.scenes, [&] {
+        share = instruments_.memory.take(MemoryBudget::scenes, bytes);
+        return share.has_value();
+    });
+    return std::move(*share);
+}
+
+SceneBefore DensityDesk::before(const LoadJob& job, const std::function<void()>& check) {
+    const auto before = std::make_shared<SceneBefore>();
+    ask(job, check, [this, before](SceneSlot& shown) {
+        MemoryBudget::Share memory = roomFor(2 * shown.lightBytes());  // as it was, and as it goes on
+        *before = shown.before();
+        before->memory = std::move(memory);
+    });
+    return std::move(*before);
+}
+
+DensitiesBefore DensityDesk::densities(const LoadJob& job, const scene::Scene& next,
+                                       const std::function<void()>& check) {
+    struct Copies {
+        DensitiesBefore result;
+        scene::Scene next;
+        bool begun = false, done = false;
+    };
+    constexpr std::uint64_t piece = std::uint64_t{8} << 20U;  // bytes: some milliseconds between two pictures
+    constexpr auto pause = std::chrono::milliseconds(2);      // for pictures
+    const auto copies = std::make_shared<Copies>();
+    copies->next = next;
+    while (!copies->done) {
+        ask(job, check, [this, copies](SceneSlot& shown) {
+            if (!std::exchange(copies->begun, true))
+                copies->result.memory = roomFor(shown.densities().copyBytes(copies->next));
+            copies->done = shown.densities().copy(copies->next, copies->result.copies, piece);
+        });
+        if (!copies->done) std::this_thread::sleep_for(pause);
+    }
+    return std::move(copies->result);
 }
 
 void DensityDesk::work() {
@@ -99,7 +145,8 @@ void DensityDesk::tell(Asked& asked) {
             const std::lock_guard lock(host_.mutex);
             shown = shownFor(asked.job);
         }
-        asked.answer.set_value(shown->before());
+        asked.work(*shown);
+        asked.answer.set_value();
     } catch (...) {
         asked.answer.set_exception(std::current_exception());
     }

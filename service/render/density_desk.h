@@ -4,6 +4,7 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "service/render/load_queue.h"
@@ -37,8 +38,8 @@ class DensityDesk {
     bool any() const { return !asked_.empty() || !ready_.empty(); }
     /// Takes a scene that is ready to be shown.
     void add(const LoadJob& job, SlotPointer slot, DensityChanged changed);
-    /// Forgets what is ready for a client, and returns the jobs, which nobody answers any more.
-    std::vector<LoadJob> take(ClientId client);
+    /// Forgets what is ready for a client, or by one request, and returns the jobs, which nobody answers any more.
+    std::vector<LoadJob> take(ClientId client, std::optional<std::uint64_t> id = {});
     /// The same of all clients.
     std::vector<LoadJob> takeAll();
     void removeClient(ClientId client) { take(client); }
@@ -47,17 +48,22 @@ class DensityDesk {
 
     /// The scene that the client sees, to go on with. Calls `check` while it waits, and throws what that throws.
     /// Errors: RequestError where the client sees another scene by now, or none.
+    /// RequestError `busy` where there is no memory for the light.
     SceneBefore before(const LoadJob& job, const std::function<void()>& check);
+    /// Copies of the densities of that scene which the next one shows too, read piece by piece. Errors: as before().
+    DensitiesBefore densities(const LoadJob& job, const scene::Scene& next, const std::function<void()>& check);
 
     // On the render thread, without the lock:
 
-    /// Answers before(), and shows what is ready, where no picture of the scene of before is being drawn.
+    /// Answers the loaders, and shows what is ready, where no picture of the scene of before is being drawn.
     void work();
 
   private:
+    /// What a loader wants of the scene that the client sees.
     struct Asked {
         LoadJob job;
-        std::promise<SceneBefore> answer;
+        std::function<void(SceneSlot&)> work;
+        std::promise<void> answer;
     };
     struct Ready {
         LoadJob job;
@@ -67,6 +73,8 @@ class DensityDesk {
 
     SlotPointer shownFor(const LoadJob& job) const;
     bool canBegin(const LoadJob& job) const;
+    void ask(const LoadJob& job, const std::function<void()>& check, std::function<void(SceneSlot&)> work);
+    MemoryBudget::Share roomFor(std::uint64_t bytes);
     void tell(Asked& asked);
     void show(Ready& ready);
     template <class Condition>

@@ -71,11 +71,10 @@ void FrameMaker::apply(const std::vector<PendingChanges::Change>& changes) {
             failure = Failure{e.code, e.what(), e.where};
         }
         const std::lock_guard lock(host_.mutex);
+        if (change.density && !host_.changes.wants(change)) continue;  // answered by others
         host_.changes.made(change);
-        const bool prepares = change.density && !failure;  // answered later
-        if (!prepares && (!change.edits.empty() || change.density))
+        if (!change.edits.empty() || change.density)
             host_.scenes.breakPromise(change.client);  // where it was of no use
-        if (prepares) continue;
         if (change.request)
             host_.reply(change.client, *change.request, failure ? Reply(*failure) : Reply(LightChanged{}));
         else if (failure)
@@ -91,8 +90,10 @@ void FrameMaker::prepare(const PendingChanges::Change& change, const SlotPointer
                                                         *change.density,
                                                         cloudsOfDensity(shown->scene(), *change.density, cloud)});
     const std::lock_guard lock(host_.mutex);
+    if (!host_.changes.wants(change)) return;
     if (host_.closing) throw RequestError(shuttingDown.code, shuttingDown.text);
     host_.scenesToCome.prepare({change.client, *change.request, {}, {}, wish});
+    host_.changes.made(change);
 }
 
 /// Errors: RequestError.

@@ -55,10 +55,10 @@ std::size_t LoadQueue::count(ClientId client) const {
         entries_, [client](const Entry& entry) { return entry.job.client == client && !entry.job.density; }));
 }
 
-std::vector<LoadJob> LoadQueue::takeDensities(ClientId client) {
+std::vector<LoadJob> LoadQueue::takeDensities(ClientId client, std::optional<std::uint64_t> id) {
     std::vector<LoadJob> taken;
     std::erase_if(entries_, [&](Entry& entry) {
-        if (entry.job.client != client || !entry.job.density) return false;
+        if (entry.job.client != client || !entry.job.density || (id && entry.job.id != *id)) return false;
         taken.push_back(std::move(entry.job));
         return true;
     });

@@ -57,8 +57,8 @@ class LoadQueue {
     /// Scenes, without densities.
     std::size_t count(ClientId client) const;
     void removeClient(ClientId client);
-    /// Takes the densities that a client waits for.
-    std::vector<LoadJob> takeDensities(ClientId client);
+    /// Takes the densities that a client waits for, or that of one request.
+    std::vector<LoadJob> takeDensities(ClientId client, std::optional<std::uint64_t> id);
     std::vector<LoadJob> takeAll();
 
   private:

@@ -50,12 +50,26 @@ class PendingChanges {
         std::vector<Change> taken, left;
         for (Change& change : changes_) (wanted(change) ? taken : left).push_back(std::move(change));
         changes_ = std::move(left);
-        for (const Change& change : taken)
+        for (const Change& change : taken) {
             if (!change.edits.empty()) editing_.push_back(change.client);
+            if (change.density) asking_.emplace_back(change.client, *change.request);
+        }
         return taken;
+    }
+    /// Ends a change of density that nobody prepares yet. Returns whether there was one: it is not answered.
+    bool cancel(ClientId client, std::uint64_t request) {
+        const auto isIt = [&](const Change& change) {
+            return change.density && change.client == client && change.request == request;
+        };
+        return std::erase_if(changes_, isIt) > 0 || std::erase(asking_, std::pair(client, request)) > 0;
+    }
+    /// Whether a change of density that was taken waits for its answer here: nobody prepares it, nor has cancelled it.
+    bool wants(const Change& change) const {
+        return std::ranges::find(asking_, std::pair(change.client, *change.request)) != asking_.end();
     }
     /// A change that was taken is made, or was refused.
     void made(const Change& change) {
+        if (change.density) std::erase(asking_, std::pair(change.client, *change.request));
         const auto found = change.edits.empty() ? editing_.end() : std::ranges::find(editing_, change.client);
         if (found != editing_.end()) editing_.erase(found);
     }
@@ -64,6 +78,7 @@ class PendingChanges {
 
   private:
     std::vector<Change> changes_;
+    std::vector<std::pair<ClientId, std::uint64_t>> asking_;  ///< for densities, by changes that were taken
     std::vector<ClientId> editing_;  ///< a client for each change of clouds that was taken and is not made yet
 };
 

@@ -117,8 +117,10 @@ void RenderService::answer(ClientId client, std::uint64_t id, const StopStream& 
 }
 
 void RenderService::answer(ClientId client, std::uint64_t id, const Cancel& cancel) {
-    const bool found = scheduler_.cancel(client, cancel.request) || queries_.cancel(client, cancel.request) ||
-                       ambient_.cancel(client, cancel.request);
+    const bool density = changes_.cancel(client, cancel.request) || desk_.cancel(client, cancel.request);
+    if (density) scenes_.breakPromise(client);
+    const bool found = density || scheduler_.cancel(client, cancel.request) ||
+                       queries_.cancel(client, cancel.request) || ambient_.cancel(client, cancel.request);
     if (found) outlets_.reply(client, cancel.request, Failure{"cancelled", "cancelled on request", {}});
     outlets_.reply(client, id, FrameCancelled{found});
 }

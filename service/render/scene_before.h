@@ -6,9 +6,11 @@
 #include "render/frame_light.h"
 #include "render/renderer.h"
 #include "render/scene_changes.h"
+#include "render/shown_densities.h"
 #include "scene/scene.h"
 #include "service/render/cost_model.h"
 #include "service/render/noise.h"
+#include "service/telemetry/memory_budget.h"
 #include "view/view.h"
 
 namespace lumulus::service {
@@ -20,9 +22,16 @@ struct SceneBefore {
     std::optional<FrameLight> light;  ///< none where no photon is of use
     NoiseEstimate noise;
     CostModel costs;
-    std::vector<View> views;  ///< that were drawn last
-    int reduction = 1;        ///< of them
-    double time = 0.0;        ///< of the wind [s]
+    std::vector<View> views;       ///< that were drawn last
+    int reduction = 1;             ///< of them
+    double time = 0.0;             ///< of the wind [s]
+    MemoryBudget::Share memory{};  ///< of the light, and of as much that it becomes
+};
+
+/// Densities of a scene, for one that shows some of them too: values on the host.
+struct DensitiesBefore {
+    DensityCopies copies;
+    MemoryBudget::Share memory;  ///< of the copies
 };
 
 /// Goes on with the light of before in the renderer of `now`, whose clouds are those of before with other densities,

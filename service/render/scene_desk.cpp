@@ -56,12 +56,21 @@ void SceneDesk::submit(LoadJob job) {
     host_.scheduler.setWaiting(client, true);
 }
 
+bool SceneDesk::cancel(ClientId client, std::uint64_t id) {
+    return !takeDensities(client, id).empty();
+}
+
+/// Ends what is prepared for a client: all, or by one request.
+std::vector<LoadJob> SceneDesk::takeDensities(ClientId client, std::optional<std::uint64_t> id) {
+    std::vector<LoadJob> jobs = loader_.takeDensities(client, id);
+    for (LoadJob& job : host_.densities.take(client, id)) jobs.push_back(std::move(job));
+    if (!jobs.empty()) host_.scenes.breakPromise(client);
+    return jobs;
+}
+
 /// Of a client who wants another one, or another scene.
 void SceneDesk::giveUpDensities(ClientId client) {
-    std::vector<LoadJob> jobs = loader_.takeDensities(client);
-    for (LoadJob& job : host_.densities.take(client)) jobs.push_back(std::move(job));
-    if (!jobs.empty()) host_.scenes.breakPromise(client);
-    for (const LoadJob& job : jobs)
+    for (const LoadJob& job : takeDensities(client, std::nullopt))
         host_.reply(client, job.id,
                     Failure{"superseded", "a newer density or scene of the client takes its place", {}});
 }
@@ -110,7 +119,11 @@ SceneLoader::Host SceneDesk::loaderHost() {
     host.find = [this](const std::string& key) { return find(key); };
     host.keep = [this](const SlotPointer& slot) { keep(slot); };
     host.loaded = [this](const LoadJob& job, const SlotPointer& slot) { loaded(job, slot); };
-    host.before = [this](const LoadJob& job, const std::function<void()>& check) {
+    host.densities = [this](const LoadJob& job, const scene::Scene& next, const std::function<void()>& check) {
+        return host_.densities.densities(job, next, check);
+    };
+    host.before = [this](const LoadJob& job, const SlotPointer& slot, const std::function<void()>& check) {
+        makeRoomFor(slot);
         return host_.densities.before(job, check);
     };
     host.prepared = [this](const LoadJob& job, SlotPointer slot, DensityChanged changed) {
@@ -129,12 +142,7 @@ DefaultScene::Host SceneDesk::defaultHost() {
 
 /// Draws the memory of a scene from the budget. Errors: RequestError `busy`.
 void SceneDesk::makeRoomFor(const SlotPointer& slot) {
-    while (!slot->holdMemory(instruments_.memory)) {
-        SlotPointer unseen;  // ends after the lock, and gives its memory back
-        const std::lock_guard lock(host_.mutex);
-        unseen = host_.scenes.dropUnseen();
-        if (!unseen) throw RequestError("busy", "there is no memory for another scene now: try again later");
-    }
+    makeRoom(host_.mutex, host_.scenes, [&] { return slot->holdMemory(instruments_.memory); });
 }
 
 void SceneDesk::prepared(const LoadJob& job, SlotPointer slot, DensityChanged changed) {

@@ -51,6 +51,9 @@ class SceneDesk {
     /// Prepares another density beside the pictures, and answers the job, in the place of one that the client waits
     /// for. Errors: RequestError `busy` where the client waits for a scene.
     void prepare(LoadJob job);
+    /// Ends the preparation of the density that a client has asked for by this request. Returns whether there was one:
+    /// nobody answers it any more.
+    bool cancel(ClientId client, std::uint64_t id);
     /// Lets the client wait for the default scene, where that is loaded still.
     void addClient(ClientId client);
     void removeClient(ClientId client) { loader_.removeClient(client); }
@@ -81,6 +84,7 @@ class SceneDesk {
     void loadFailed(const LoadJob& job, const Failure& failure);
     void makeRoomFor(const SlotPointer& slot);
     void prepared(const LoadJob& job, SlotPointer slot, DensityChanged changed);
+    std::vector<LoadJob> takeDensities(ClientId client, std::optional<std::uint64_t> id);
     void giveUpDensities(ClientId client);
     void letWait(ClientId client, bool loads);
     SceneDescription describe(const SlotPointer& slot) const;

@@ -57,11 +57,12 @@ void SceneLoader::removeClient(ClientId client) {
         if (lane.job && lane.job->client == client) lane.abandon = true;
 }
 
-std::vector<LoadJob> SceneLoader::takeDensities(ClientId client) {
+std::vector<LoadJob> SceneLoader::takeDensities(ClientId client, std::optional<std::uint64_t> id) {
     const std::lock_guard lock(mutex_);
-    std::vector<LoadJob> taken = queue_.takeDensities(client);
+    std::vector<LoadJob> taken = queue_.takeDensities(client, id);
     for (Lane& lane : lanes_) {
         if (!lane.job || lane.job->client != client || !lane.job->density) continue;
+        if (id && lane.job->id != *id) continue;
         lane.abandon = true;
         taken.push_back(*std::exchange(lane.job, std::nullopt));
     }
@@ -189,11 +190,11 @@ void SceneLoader::findSource(Lane& lane, LoadQueue::Entry entry) {
     });
 }
 
-SlotPointer SceneLoader::makeSlot(Lane& lane, const LoadQueue::Entry& entry) {
+SlotPointer SceneLoader::makeSlot(Lane& lane, const LoadQueue::Entry& entry, DensityCopies copies) {
     const SourcedScene& found = *entry.source;
     instruments_.log.event("info", "scene_loading", {{"client", entry.job.client}, {"scene", found.scene.source}});
-    return std::make_shared<SceneSlot>(found, config_, stopFor(lane),
-                                       [&](std::string_view step) { noteStep(lane, step); });
+    return std::make_shared<SceneSlot>(
+        found, config_, stopFor(lane), [&](std::string_view step) { noteStep(lane, step); }, std::move(copies));
 }
 
 SlotPointer SceneLoader::slotFor(Lane& lane, const LoadQueue::Entry& entry) {
@@ -201,7 +202,7 @@ SlotPointer SceneLoader::slotFor(Lane& lane, const LoadQueue::Entry& entry) {
     const SourcedScene& found = *entry.source;
     const LoadJob& job = entry.job;
     if (SlotPointer held = host_.find(found.key)) return held;
-    SlotPointer slot = makeSlot(lane, entry);
+    SlotPointer slot = makeSlot(lane, entry, {});
     stopFor(lane)();  // the last step may not have asked: nobody keeps a scene that nobody waits for
     if (job.load.isPrivate) slot->giveTo(job.client);
     host_.keep(slot);
@@ -226,9 +227,12 @@ void SceneLoader::prepare(Lane& lane, const LoadQueue::Entry& entry) {
     const LoadJob& job = entry.job;
     answer(job, [&] {
         const auto start = Clock::now();
-        SlotPointer slot = makeSlot(lane, entry);
+        noteStep(lane, "reading densities back");
+        DensitiesBefore densities = host_.densities(job, entry.source->scene, stopFor(lane));
+        SlotPointer slot = makeSlot(lane, entry, std::move(densities.copies));
+        densities = {};
         noteStep(lane, "waiting for the light of before");
-        const SceneBefore before = host_.before(job, stopFor(lane));
+        const SceneBefore before = host_.before(job, slot, stopFor(lane));  // counts until the scene is made
         DensityChanged changed;
         changed.carried = slot->goOnFrom(before, job.density->density.seconds);
         changed.clouds = cloudsShown(entry.source->scene, *job.density);

@@ -27,9 +27,13 @@ class SceneLoader {
         std::function<void(const SlotPointer&)> keep;
         /// Takes the outcome. Has to call end(). Errors of `loaded`: RequestError, which goes to `failed`.
         std::function<void(const LoadJob&, const SlotPointer&)> loaded;
-        /// The scene that goes on as one with another density, when it is ready to. Calls `check` while it waits, and
-        /// throws what that throws. Errors: RequestError.
-        std::function<SceneBefore(const LoadJob&, const std::function<void()>& check)> before;
+        /// What a scene with another density need not load. Calls `check` while it waits, and throws what that throws.
+        /// Errors: RequestError.
+        std::function<DensitiesBefore(const LoadJob&, const scene::Scene&, const std::function<void()>& check)>
+            densities;
+        /// The scene that goes on as the slot, which has another density, when it is ready to. Waits and throws as
+        /// above.
+        std::function<SceneBefore(const LoadJob&, const SlotPointer&, const std::function<void()>& check)> before;
         /// Takes a scene with another density, and whether it goes on with light, in the place of `loaded`.
         std::function<void(const LoadJob&, SlotPointer, DensityChanged)> prepared;
         std::function<void(const LoadJob&, const Failure&)> failed;
@@ -45,8 +49,9 @@ class SceneLoader {
     void submit(LoadJob job);
     /// Forgets what the client waits for; a load under way for it is given up.
     void removeClient(ClientId client);
-    /// Gives up the densities that a client waits for, and returns them: nobody answers them any more.
-    std::vector<LoadJob> takeDensities(ClientId client);
+    /// Gives up the densities that a client waits for, or that of one request, and returns them: nobody answers them
+    /// any more.
+    std::vector<LoadJob> takeDensities(ClientId client, std::optional<std::uint64_t> id);
     /// Ends a load under way. Returns whether the client waits for another; none where somebody has answered it.
     std::optional<bool> end(const LoadJob& job);
     /// The scene of this key is being loaded elsewhere: nobody loads it here. Empty: there is none.
@@ -82,7 +87,7 @@ class SceneLoader {
     template <typename Work>
     void answer(const LoadJob& job, const Work& work);
     SlotPointer slotFor(Lane& lane, const LoadQueue::Entry& entry);
-    SlotPointer makeSlot(Lane& lane, const LoadQueue::Entry& entry);
+    SlotPointer makeSlot(Lane& lane, const LoadQueue::Entry& entry, DensityCopies copies);
     void prepare(Lane& lane, const LoadQueue::Entry& entry);
     void noteLoaded(const LoadQueue::Entry& entry, Clock::time_point start);
     static std::function<void()> stopFor(const Lane& lane);

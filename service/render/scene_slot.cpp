@@ -33,7 +33,7 @@ std::string keyOf(const SceneSlot& source, ClientId owner) {
 }  // namespace
 
 SceneSlot::SceneSlot(const SourcedScene& found, const RenderConfig& config, const std::function<void()>& abandoned,
-                     const std::function<void(std::string_view)>& begins)
+                     const std::function<void(std::string_view)>& begins, DensityCopies copies)
     : key_(found.key),
       load_(found.load),
       scene_(found.scene),
@@ -41,7 +41,7 @@ SceneSlot::SceneSlot(const SourcedScene& found, const RenderConfig& config, cons
       guard_(limits_.loadSeconds, abandoned, begins) {
     RendererOptions loading = options();
     loading.device = config.device;
-    renderer_ = std::make_unique<Renderer>(scene_, loading);
+    renderer_ = densities_->makeRenderer(scene_, loading, std::move(copies));
     scene_.sun = renderer_->sun();  // a map has one
     light_.emplace(scene_, *renderer_);
     learnCosts();
@@ -57,6 +57,7 @@ SceneSlot::SceneSlot(const std::shared_ptr<SceneSlot>& shown, ClientId owner, co
       load_(shown->load_),
       scene_(edited != nullptr ? edited->scene : source_->scene_),
       limits_(source_->limits_),
+      densities_(edited != nullptr ? shown->densities_ : source_->densities_),
       renderer_(edited != nullptr ? std::make_unique<Renderer>(scene_, *shown->renderer_, edited->origins, options())
                                   : std::make_unique<Renderer>(scene_, *source_->renderer_, options())),
       memory_(edited != nullptr ? shown->memory_ : source_->memory_),
@@ -130,9 +131,8 @@ void SceneSlot::onStep(const std::function<double()>& step) {
 }
 
 bool SceneSlot::holdMemory(MemoryBudget& budget) {
-    auto share = budget.take(MemoryBudget::scenes, heldBytes());
-    if (share) *memory_ = std::move(*share);
-    return share.has_value();
+    if (memory_->bytes() == 0) *memory_ = budget.open(MemoryBudget::scenes);
+    return memory_->tryResize(heldBytes());
 }
 
 std::uint64_t SceneSlot::frameBytes(const FrameRequest& frame) const {

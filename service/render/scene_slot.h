@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "render/renderer.h"
+#include "render/shown_densities.h"
 #include "scene/scene.h"
 #include "service/render/cloud_edits.h"
 #include "service/render/cost_model.h"
@@ -35,11 +36,12 @@ struct SceneBefore;
 /// scene() and description().
 class SceneSlot {
   public:
-    /// Loads and prepares the scene, and draws a small picture, so that shaders are compiled and costs known.
-    /// `abandoned` is called between the steps; what it throws ends the load. `begins` is told which step begins. Both
-    /// may be empty. Errors: InputError, Error, TooSlow.
+    /// Loads and prepares the scene, or takes copies of densities that it shows and another scene has prepared, and
+    /// draws a small picture, so that shaders are compiled and costs known. `abandoned` is called between the steps;
+    /// what it throws ends the load. `begins` is told which step begins. Both may be empty. Errors: InputError, Error,
+    /// TooSlow.
     SceneSlot(const SourcedScene& found, const RenderConfig& config, const std::function<void()>& abandoned,
-              const std::function<void(std::string_view)>& begins = {});
+              const std::function<void(std::string_view)>& begins = {}, DensityCopies copies = {});
 
     /// The scene of another slot with light of its own for a client: as the scene has it, and no photons yet. Density,
     /// device and programs are shared, so that nothing is loaded and one thread has to use both. With clouds that are
@@ -124,6 +126,10 @@ class SceneSlot {
 
     /// What a scene with another density goes on with. When canChange().
     SceneBefore before();
+    /// Bytes of its light on the host.
+    std::uint64_t lightBytes() const { return renderer_->frameLightBytes(); }
+    /// What another scene needs not load. When canChange().
+    const ShownDensities& densities() const { return *densities_; }
     /// Goes on with another scene's light, which is shown while this one is loaded, along the motion that goOn() tells
     /// of, traces a generation, so that it is known what that takes, and draws what was drawn there. Returns whether
     /// there was light to go on with. While it is loaded. Errors: those of goOn(), of traceGeneration() and of draw().
@@ -132,8 +138,8 @@ class SceneSlot {
     /// changed meanwhile: light of its own that goes back to the same scene. Errors: InputError.
     void takePlaceOf(const std::shared_ptr<SceneSlot>& shown, ClientId owner);
 
-    /// Draws what the scene holds from the budget, and keeps that in step from now on. Returns false where the budget
-    /// does not have it. Before the scene is held.
+    /// Draws what the scene holds by now from the budget, and keeps that in step from now on. Returns false where the
+    /// budget does not have it. Before the scene is held.
     bool holdMemory(MemoryBudget& budget);
     /// Bytes of the device that the scene holds, with all lights of it.
     std::uint64_t heldBytes() const { return renderer_->statistics().gpuBytesHeld; }
@@ -205,7 +211,8 @@ class SceneSlot {
     const RenderLimits& limits_;
     WorkGuard guard_;
     std::size_t tracing_ = 0, drawing_ = 0;
-    bool dropsGeneration_ = false;  ///< that is traced
+    bool dropsGeneration_ = false;                                                    ///< that is traced
+    std::shared_ptr<ShownDensities> densities_ = std::make_shared<ShownDensities>();  ///< of all lights of them
     std::unique_ptr<Renderer> renderer_;
     std::array<Viewer, 2> viewers_;  ///< the second one of pictures that come within another
     std::vector<View> seen_;         ///< that were drawn last

@@ -161,6 +161,15 @@ bool SceneStore::starves(const SceneSlot& slot, Clock::time_point now) {
            std::chrono::duration<double, std::milli>(now - slot.lastTraced()).count() > longest;
 }
 
+void makeRoom(std::mutex& mutex, SceneStore& scenes, const std::function<bool()>& taken) {
+    while (!taken()) {
+        SlotPointer unseen;  // ends after the lock, and gives its memory back
+        const std::lock_guard lock(mutex);
+        unseen = scenes.dropUnseen();
+        if (!unseen) throw RequestError("busy", "there is no memory for another scene now: try again later");
+    }
+}
+
 SlotPointer SceneStore::toRefine(Clock::time_point now, std::optional<Clock::time_point> due) const {
     SlotPointer best;
     const auto consider = [&](const SlotPointer& slot) {

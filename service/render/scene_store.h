@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -100,5 +102,9 @@ class SceneStore {
     std::vector<SlotPointer> retired_;
     std::map<std::string, Published> published_;  // by key
 };
+
+/// Calls `taken` until it has found its memory, and lets scenes that nobody sees end meanwhile. Without the lock, which
+/// guards the store. Errors: RequestError `busy` where all are seen.
+void makeRoom(std::mutex& mutex, SceneStore& scenes, const std::function<bool()>& taken);
 
 }  // namespace lumulus::service

@@ -17,18 +17,6 @@ using gpu::Sampler;
 /// Edge of a majorant cell, in blocks.
 constexpr int majorantCell = 2;
 
-VkFormat formatOf(vdb::DensityFormat format) {
-    switch (format) {
-        case vdb::DensityFormat::r8:
-            return VK_FORMAT_R8_UNORM;
-        case vdb::DensityFormat::r16f:
-            return VK_FORMAT_R16_SFLOAT;
-        case vdb::DensityFormat::r32f:
-            break;
-    }
-    return VK_FORMAT_R32_SFLOAT;
-}
-
 gpu::Image uploadDensity(gpu::Context& context, const vdb::QuantisedVolume& quantised, const glm::ivec3& size) {
     gpu::Image image(context, "density", size, formatOf(quantised.format));
     gpu::upload(context, image, quantised.texels);
@@ -88,7 +76,21 @@ MajorantGrid fineBlocks(gpu::Context& context, const PreparePrograms& programs, 
     return {blocks, glm::vec3(static_cast<float>(fineEdge)), {found.begin(), found.end()}};
 }
 
-gpu::Image indexCollectors(gpu::Context& context, const PreparePrograms& programs, const glm::ivec3& size,
+}  // namespace
+
+VkFormat formatOf(vdb::DensityFormat format) {
+    switch (format) {
+        case vdb::DensityFormat::r8:
+            return VK_FORMAT_R8_UNORM;
+        case vdb::DensityFormat::r16f:
+            return VK_FORMAT_R16_SFLOAT;
+        case vdb::DensityFormat::r32f:
+            break;
+    }
+    return VK_FORMAT_R32_SFLOAT;
+}
+
+gpu::Image indexCollectors(gpu::Context& context, const gpu::Program<shared::LeafPush>& program, const glm::ivec3& size,
                            const gpu::Buffer& leafBuffer, const std::vector<std::uint32_t>& numbers,
                            std::size_t collectors) {
     gpu::Image index(context, "collector index", size, collectors < 0xFFFF ? VK_FORMAT_R16_UINT : VK_FORMAT_R32_UINT);
@@ -98,15 +100,12 @@ gpu::Image indexCollectors(gpu::Context& context, const PreparePrograms& program
     gpu::Commands commands(context);
     commands.begin();
     commands.pass("leaf index");
-    commands.dispatch(programs.leafIndex,
-                      {{"Leaves", leafBuffer}, {"Collectors", numberBuffer}, {"collectorIndex", index}},
+    commands.dispatch(program, {{"Leaves", leafBuffer}, {"Collectors", numberBuffer}, {"collectorIndex", index}},
                       shared::LeafPush{size, leaves}, linearGroups(leaves, 1));
     commands.submit();
     commands.wait();
     return index;
 }
-
-}  // namespace
 
 Asset prepare(gpu::Context& context, const vdb::PlacedVolume& placed, const PrepareOptions& options) {
     StepWatch watch(options.check);
@@ -135,7 +134,8 @@ Asset prepare(gpu::Context& context, const vdb::PlacedVolume& placed, const Prep
                                            static_cast<std::uint32_t>(tree.leaves.size()));
     std::vector<std::uint32_t> numbers;
     std::vector<Collector> collectors = makeCollectors(tree, statistics, numbers);
-    gpu::Image index = indexCollectors(context, programs, volume.size, leafBuffer, numbers, collectors.size());
+    gpu::Image index =
+        indexCollectors(context, programs.leafIndex, volume.size, leafBuffer, numbers, collectors.size());
 
     times.collectors = watch.lap();
 

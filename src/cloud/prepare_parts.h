@@ -73,4 +73,12 @@ bool isLocal(scene::Majorant wanted, const MajorantGrid& single);
 
 gpu::Image majorantImage(gpu::Context& context, const MajorantGrid& grid);
 
+/// Of the image of a dense field.
+VkFormat formatOf(vdb::DensityFormat format);
+
+/// The collector of each voxel of a dense field. `leafBuffer` has the leaves, `numbers` the collector of each.
+gpu::Image indexCollectors(gpu::Context& context, const gpu::Program<shared::LeafPush>& program, const glm::ivec3& size,
+                           const gpu::Buffer& leafBuffer, const std::vector<std::uint32_t>& numbers,
+                           std::size_t collectors);
+
 }  // namespace lumulus::cloud

@@ -20,6 +20,10 @@ PreparePrograms::PreparePrograms(gpu::Context& context)
       gradientBound(context, "gradient_bound", spirv::gradient_bound_comp),
       sample(context, "sample", spirv::sample_comp, {gpu::SpecConstant::of(15, false)}),
       leafStatistics(context, "leaf_statistics", spirv::leaf_statistics_comp),
-      leafIndex(context, "leaf_index", spirv::leaf_index_comp) {}
+      leafIndex(leafIndexProgram(context)) {}
+
+gpu::Program<shared::LeafPush> leafIndexProgram(gpu::Context& context) {
+    return {context, "leaf_index", spirv::leaf_index_comp};
+}
 
 }  // namespace lumulus::cloud

@@ -15,6 +15,9 @@ struct PreparePrograms {
     gpu::Program<shared::LeafPush> leafStatistics, leafIndex;
 };
 
+/// That of PreparePrograms, alone.
+gpu::Program<shared::LeafPush> leafIndexProgram(gpu::Context& context);
+
 /// Edge of the fine blocks, voxels.
 inline constexpr int fineEdge = 2;
 

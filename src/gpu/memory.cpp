@@ -80,8 +80,8 @@ glm::ivec3 ImageLevel::extent() const {
 }
 
 int ImageLevel::slices() const {
-    if (image->dimensions() == 3) return extent().z;
-    return layer ? 1 : image->layers();
+    if (layer) return 1;
+    return image->dimensions() == 3 ? extent().z : image->layers();
 }
 
 std::uint64_t ImageLevel::bytes() const {
@@ -136,7 +136,8 @@ void Image::addView(Context& context, const VkImageSubresourceRange& range) {
 }
 
 ImageLevel Image::level(int level, std::optional<int> layer) const {
-    if (level < 0 || level >= levels() || (layer && (!isArray() || *layer < 0 || *layer >= layers())))
+    const int most = dimensions_ == 3 ? extent_.z >> std::clamp(level, 0, 31) : isArray() ? layers() : 0;
+    if (level < 0 || level >= levels() || (layer && (*layer < 0 || *layer >= std::max(most, dimensions_ - 2))))
         throw std::logic_error(fmt::format("image {} has {} levels of {} layers: there is no level {}, layer {}", name_,
                                            levels(), layers(), level, layer.value_or(0)));
     return {this, level, layer};

@@ -71,7 +71,7 @@ struct ImageParts {
 /// The number of mip levels from `extent` down to a single texel.
 int mipLevels(glm::ivec3 extent);
 
-/// One mip level of an image: all of it, or for transfers one layer. Must not outlive the image, nor its being moved.
+/// One mip level of an image; for transfers, a layer or slice of it. Must not outlive the image, nor its being moved.
 struct ImageLevel {
     const class Image* image = nullptr;
     int level = 0;
@@ -104,7 +104,7 @@ class Image : public Resource {
     bool isArray() const { return parts_.layers > 0; }
     int layers() const { return std::max(parts_.layers, 1); }
 
-    /// Throws std::logic_error where the image has no such level or layer.
+    /// Throws std::logic_error where the image has no such level or layer (of a volume: slice).
     ImageLevel level(int level, std::optional<int> layer = {}) const;
 
   private:

@@ -30,7 +30,7 @@ VkBufferImageCopy regionOf(const ImageLevel& image, std::uint64_t offset, std::u
     const auto layer = static_cast<std::uint32_t>(image.layer.value_or(0));
     const VkImageSubresourceLayers part{VK_IMAGE_ASPECT_COLOR_BIT, static_cast<std::uint32_t>(image.level),
                                         volume ? 0 : layer + first, volume ? 1 : count};
-    const VkOffset3D corner{0, firstRow, volume ? static_cast<int>(first) : 0};
+    const VkOffset3D corner{0, firstRow, volume ? static_cast<int>(layer + first) : 0};
     return {0, 0, 0, part, corner, {extent.x, rows, volume ? count : 1}};
 }
 

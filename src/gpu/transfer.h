@@ -7,7 +7,7 @@
 /// One-time copies between host and device through a staging buffer of at most `stagingBytes` or one row. Each waits
 /// until it is done, ordered after all work submitted before. A buffer is written or read from its start, as far as the
 /// bytes go (std::logic_error where it has not as many). Of an image go all texels, tightly packed: x fastest, then y,
-/// then z or the layers, then the levels; or those of one level or of one layer of it (std::logic_error where the
+/// then z or the layers, then the levels; or those of one level, layer or slice of it (std::logic_error where the
 /// sizes differ).
 namespace lumulus::gpu {
 

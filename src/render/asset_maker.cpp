@@ -6,6 +6,8 @@
 
 #include "cloud/level_of_detail.h"
 #include "cloud/refined.h"
+#include "render/kept_clouds.h"
+#include "volume/known_fields.h"
 
 namespace lumulus {
 
@@ -51,6 +53,8 @@ const vdb::Volume& AssetMaker::volumeOf(Plan& plan) const {
 }
 
 AssetMaker::Plan AssetMaker::planOf(const Group& group) const {
+    const bool whole = group.detail.isWhole() && mayKeep(group);
+    if (!pool_ && lacksValues(*group.volume) && !whole) throw DensityMissing{};
     Plan plan{group, {}, {}, 0.0F, false, nullptr};
     plan.origin.field = fieldOf(group);
     plan.origin.level = group.detail.level;
@@ -71,6 +75,7 @@ AssetMaker::Plan AssetMaker::planOf(const Group& group) const {
     }
     fit(plan);
     if (mayKeep(group)) plan.asset = options_.kept->find(plan.origin);
+    if (!pool_ && !plan.asset && lacksValues(*group.volume)) throw DensityMissing{};
     return plan;
 }
 

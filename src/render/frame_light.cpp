@@ -103,6 +103,16 @@ std::optional<FrameLight> frameLightOf(gpu::Context& context, World& world, cons
     return light;
 }
 
+std::uint64_t frameLightBytes(const World& world) {
+    if (!world.photons) return 0;
+    const std::span<const photon::MapPart> parts = world.photons->parts();
+    constexpr std::uint64_t ofCollector = sizeof(glm::dvec3) + sizeof(double);
+    std::uint64_t bytes = world.photons->countsOfAll() * sizeof(std::int64_t);
+    for (const photon::MapPart& part : parts)
+        bytes += part.collectors * ofCollector + part.estimates.count() * sizeof(double);
+    return bytes;
+}
+
 bool carryLight(gpu::Context& context, World& world, const scene::Scene& scene, const FrameLight& before,
                 std::span<const photon::Way> ways, int generations) {
     if (!world.photons || !before.sums.unitExponent || generations <= 0) return false;
@@ -124,7 +134,7 @@ bool carryRing(gpu::Context& context, World& world, const scene::Scene& scene, c
     if (!world.photons || !before.sums.unitExponent || before.sums.generationsTraced() == 0) return false;
     std::vector<double> extinctions = extinctionsNow(world);
     photon::CarriedPlan plan = planOf(context, world, scene, extinctions);
-    plan.counts = static_cast<std::uint32_t>(world.photons->tracedSums().counts.size());
+    plan.counts = world.photons->countsOfAll();
     bool any = false;
     for (std::size_t i = 0; i < plan.clouds.size(); ++i) {
         const bool known = std::ranges::any_of(before.plan.clouds, [&](const photon::CarriedCloud& cloud) {

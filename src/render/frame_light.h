@@ -34,6 +34,9 @@ FrameMotion motionOf(const FrameLight& light, const scene::Scene& before, const 
 /// Of a world that is made of `scene`; none where no photon is of use. The sums are those of the map.
 std::optional<FrameLight> frameLightOf(gpu::Context& context, World& world, const scene::Scene& scene);
 
+/// Bytes of frameLightOf().
+std::uint64_t frameLightBytes(const World& world);
+
 /// Adds the light of the frame before to what was traced, as that of so many generations more. `ways` of the clouds of
 /// the scene. Returns whether there was any to add. Not with a ring. Errors: Error where interrupted.
 bool carryLight(gpu::Context& context, World& world, const scene::Scene& scene, const FrameLight& before,

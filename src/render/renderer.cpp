@@ -153,6 +153,10 @@ std::optional<FrameLight> Renderer::frameLight(const scene::Scene& scene) {
     return frameLightOf(state_->context, *state_->world, scene);
 }
 
+std::uint64_t Renderer::frameLightBytes() const {
+    return lumulus::frameLightBytes(*state_->world);
+}
+
 bool Renderer::carryOn(const scene::Scene& scene, const FrameLight& before, std::span<const photon::Way> ways,
                        int generations) {
     return carryLight(state_->context, *state_->world, scene, before, ways, generations);

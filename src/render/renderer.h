@@ -50,7 +50,7 @@ struct RendererOptions {
     std::shared_ptr<gpu::Context> context{};  ///< the device of another renderer, in the place of `device`; may be null
     ToldOfClouds loaded{};                    ///< told of the clouds before any work on them, which can take long
     ReadClouds read{};                        ///< gives densities that may have been read beforehand
-    KeptClouds* kept = nullptr;               ///< what the renderer before has left; not with a ring
+    KeptClouds* kept = nullptr;               ///< what the renderer before has left
 };
 
 /// What `--stats` reports.
@@ -149,6 +149,8 @@ class Renderer {
     /// Light of all photons so far, or of those in the ring, for the frame behind that of this scene; none where no
     /// photon is of use.
     std::optional<FrameLight> frameLight(const scene::Scene& scene);
+    /// Bytes on the host of what frameLight() gives.
+    std::uint64_t frameLightBytes() const;
     /// Adds the light of the frame before to what was traced, as so many generations more (render/frame_light.h):
     /// `ways` that what is in the clouds of the scene has come. Returns whether there was any to add. Not with
     /// `keepRing`.

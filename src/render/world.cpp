@@ -179,13 +179,17 @@ CloudVolumes Maker::load() {
     std::unordered_map<const vdb::Volume*, std::pair<Bounds, vdb::Affine>> known;
     for (const vdb::PlacedVolume& placed : volumes.placed()) {
         const std::size_t number = world_.instances.size();
+        const auto atPlace = [&] {
+            return volumes.filled.empty() ? boundsOf(placed)
+                                          : boundsOf(volumes.filled[volumes.clouds[number].volume], placed.toWorld);
+        };
         cloud::Instance instance;
         instance.name = scene::nameOf(scene_, number);
         instance.voxelToMetres = placed.toWorld.linear;
         instance.origin = placed.toWorld.translation;
         const auto first = known.find(placed.volume);
-        instance.bounds = first == known.end() ? boundsOf(placed)
-                                               : movedBounds(first->second.first, first->second.second, placed.toWorld);
+        instance.bounds =
+            first == known.end() ? atPlace() : movedBounds(first->second.first, first->second.second, placed.toWorld);
         known.try_emplace(placed.volume, instance.bounds, placed.toWorld);
         instance.sceneExtinction = scene_.clouds[number].extinction;
         bounds.push_back(instance.bounds);

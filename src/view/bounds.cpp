@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "vdb/sparse_volume.h"
+#include "view/filled_voxels.h"
 
 namespace lumulus {
 
@@ -133,18 +134,29 @@ std::vector<glm::ivec3> outerEnds(const std::vector<Line>& lines, int apart) {
 
 }  // namespace
 
-Bounds boundsOf(const vdb::PlacedVolume& cloud) {
+FilledVoxels filledVoxels(const vdb::PlacedVolume& cloud) {
     const vdb::Volume& volume = *cloud.volume;
-    Bounds bounds;
+    FilledVoxels filled;
     VoxelBox all;
-    const std::vector<glm::ivec3> ends = cloud.bricks == nullptr ? outerEnds(outerLines(volume, all), edge)
-                                                                 : outerEnds(outerLines(*cloud.bricks, all), leafEdge);
-    for (const glm::ivec3& corner : ends) bounds.outline.push_back(cloud.toWorld.point(glm::dvec3(corner)));
+    filled.ends = cloud.bricks == nullptr ? outerEnds(outerLines(volume, all), edge)
+                                          : outerEnds(outerLines(*cloud.bricks, all), leafEdge);
     if (!all.filled()) all = {glm::ivec3(0), volume.size};
-    bounds.centre = cloud.toWorld.point(0.5 * glm::dvec3(all.low + all.high));
-    const glm::dvec3 half = 0.5 * glm::dvec3(all.high - all.low);
-    for (int axis = 0; axis < 3; ++axis) bounds.halfAxes[axis] = cloud.toWorld.linear[axis] * half[axis];
+    filled.low = all.low;
+    filled.high = all.high;
+    return filled;
+}
+
+Bounds boundsOf(const FilledVoxels& filled, const vdb::Affine& toWorld) {
+    Bounds bounds;
+    for (const glm::ivec3& corner : filled.ends) bounds.outline.push_back(toWorld.point(glm::dvec3(corner)));
+    bounds.centre = toWorld.point(0.5 * glm::dvec3(filled.low + filled.high));
+    const glm::dvec3 half = 0.5 * glm::dvec3(filled.high - filled.low);
+    for (int axis = 0; axis < 3; ++axis) bounds.halfAxes[axis] = toWorld.linear[axis] * half[axis];
     return bounds;
+}
+
+Bounds boundsOf(const vdb::PlacedVolume& cloud) {
+    return boundsOf(filledVoxels(cloud), cloud.toWorld);
 }
 
 Bounds unite(std::span<const Bounds> parts) {

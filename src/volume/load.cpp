@@ -21,7 +21,8 @@ constexpr double bytesPerMiB = 1048576.0;
 
 /// MiB at the two bytes that a voxel takes on the GPU.
 double sizeOf(const vdb::Volume& volume) {
-    return 2.0 * static_cast<double>(volume.density.size()) / bytesPerMiB;
+    const glm::dvec3 size(volume.size);
+    return 2.0 * size.x * size.y * size.z / bytesPerMiB;
 }
 
 vdb::DensityArray arrayOf(const scene::Voxels& voxels) {
@@ -79,6 +80,7 @@ void fill(Source& source, double budget, const Report& report, const vdb::ReadLi
             source.loaded = field.loaded;
             source.volume = field.volume;
             source.sums = field.sums;
+            source.filled = field.filled;
             return;
         }
     source.volume.reset();
@@ -127,7 +129,7 @@ std::vector<Source> differentSources(const std::vector<scene::Cloud>& clouds, st
         const auto same = std::ranges::find_if(
             sources, [&](const Source& source) { return sourceOf(*source.cloud) == sourceOf(clouds[i]); });
         volumeOf.push_back(static_cast<std::size_t>(same - sources.begin()));
-        if (same == sources.end()) sources.push_back({&clouds[i], i, {}, {}, {}, 0.0, {}});
+        if (same == sources.end()) sources.push_back({&clouds[i], i, {}, {}, {}, {}, 0.0, {}});
     }
     return sources;
 }
@@ -139,15 +141,31 @@ void dropOthers(KnownFields& known, const std::vector<Source>& sources) {
     });
 }
 
-KnownFields fieldsOf(const std::vector<Source>& sources, const std::vector<vdb::ColumnSums>& sums) {
+/// The dense fields that were loaded, with what is told of each.
+KnownFields fieldsOf(const std::vector<Source>& sources, const std::vector<vdb::ColumnSums>& sums,
+                     const std::vector<FilledVoxels>& filled) {
     KnownFields known;
-    for (std::size_t i = 0; i < sources.size(); ++i)
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        const Source& source = sources[i];
         known.fields.push_back(
-            {*sources[i].cloud, sources[i].index, sources[i].budget, sources[i].loaded, sources[i].volume, sums[i]});
+            {*source.cloud, source.index, source.budget, source.loaded, source.volume, sums[i], filled[i]});
+    }
     return known;
 }
 
 }  // namespace
+
+KnownFields knownIn(const KnownFields& known, const scene::Scene& scene) {
+    std::vector<std::size_t> volumeOf;
+    KnownFields shown = known;
+    dropOthers(shown, differentSources(scene.clouds, volumeOf));
+    return shown;
+}
+
+std::shared_ptr<const vdb::Volume> withoutValues(const vdb::Volume& volume) {
+    return std::make_shared<const vdb::Volume>(
+        vdb::Volume{volume.size, {}, volume.maximum, volume.toWorld, volume.name});
+}
 
 std::vector<vdb::PlacedVolume> CloudVolumes::placed() const {
     std::vector<vdb::PlacedVolume> result;
@@ -198,7 +216,10 @@ CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const C
         sums.push_back(sparse            ? vdb::columnSums(result.bricks[i])
                        : sources[i].sums ? *sources[i].sums
                                          : vdb::columnSums(*result.volumes[i], check));
-    if (known != nullptr) *known = sparse ? KnownFields() : fieldsOf(sources, sums);
+    if (known != nullptr && !sparse)
+        for (const Source& source : sources)
+            result.filled.push_back(source.filled ? *source.filled : filledVoxels(*source.volume));
+    if (known != nullptr) *known = sparse ? KnownFields() : fieldsOf(sources, sums, result.filled);
     for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
         CloudVolumes::Cloud& cloud = result.clouds[i];
         const double extinction = scene.clouds[i].extinction * scene.clouds[i].densityScale;

@@ -11,6 +11,7 @@
 #include "vdb/optical_thickness.h"
 #include "vdb/placed_volume.h"
 #include "vdb/sparse_volume.h"
+#include "view/filled_voxels.h"
 
 namespace lumulus {
 
@@ -28,6 +29,7 @@ struct CloudVolumes {
 
     /// At their own places, without the scene's `transform`. One that another scene shows too is the same.
     std::vector<std::shared_ptr<const vdb::Volume>> volumes;
+    std::vector<FilledVoxels> filled;       ///< as many, where others may be known, else none
     std::vector<vdb::SparseVolume> bricks;  ///< as many, laid out, where the fields are in bricks, else none
     std::vector<Cloud> clouds;              ///< as many as the scene has, in its order
     std::vector<std::string> warnings;      ///< what a person should know, one line each
@@ -51,7 +53,8 @@ enum class FieldStorage { dense, asWanted };
 /// the scene's camera sees voxels smallest. Values of files come later, leaf by leaf (vdb::fillSlots).
 ///
 /// Dense fields that are `known` from another scene are taken from there: they are what loading gives, as long as files
-/// stay as they are. It has those of this scene then, and drops others before any is loaded.
+/// stay as they are. It has those of this scene then, and drops others before any is loaded. Known fields without
+/// values stay so.
 CloudVolumes loadClouds(const scene::Scene& scene, const Report& report = noReport,
                         const Check& check = stopIfInterrupted, FieldStorage storage = FieldStorage::dense,
                         KnownFields* known = nullptr);

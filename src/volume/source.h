@@ -11,6 +11,7 @@
 #include "vdb/optical_thickness.h"
 #include "vdb/sparse_volume.h"
 #include "vdb/transform.h"
+#include "view/filled_voxels.h"
 
 /// Sources of density fields (inside volume/ only).
 namespace lumulus {
@@ -33,6 +34,7 @@ struct Source {
     vdb::LoadResult loaded;                     ///< but for the volume
     std::shared_ptr<const vdb::Volume> volume;  ///< of a field in bricks without values
     std::optional<vdb::ColumnSums> sums;        ///< where they are known
+    std::optional<FilledVoxels> filled;         ///< where they are known
     double budget = 0.0;                        ///< within which it was loaded [MiB]
     vdb::SparseVolume bricks;                   ///< of a file whose field is in bricks
 

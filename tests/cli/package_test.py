@@ -72,6 +72,16 @@ class Package(unittest.TestCase):
         self.assertIn("lumulus (0.1.0-1)", gzip.decompress(
             (self.root / "usr/share/doc/lumulus/changelog.Debian.gz").read_bytes()).decode())
 
+    def test_maintainer_is_somebody(self):
+        """A name, and an address under no domain that is reserved for examples (RFC 2606) or names nobody's host."""
+        maintainer = self.field("Maintainer")
+        address = re.fullmatch(r"[^<>@]+ <([\w.+-]+)@([\w-]+(?:\.[\w-]+)+)>", maintainer)
+        self.assertTrue(address, maintainer)
+        self.assertNotEqual(address[1], "root", "no person")
+        self.assertNotRegex(address[2], r"(?:^|\.)(?:invalid|test|example|localhost|localdomain|localnet|example\.\w+)$")
+        changelog = gzip.decompress((self.root / "usr/share/doc/lumulus/changelog.Debian.gz").read_bytes()).decode()
+        self.assertIn(f" -- {maintainer}  ", changelog)
+
     def test_paths_in_files_exist(self):
         unit = (self.root / "lib/systemd/system/lumulus.service").read_text()
         for path in re.findall(r"(?:file:|ExecStart=| )(/(?:usr|etc)/\S+)", unit):

@@ -11,6 +11,7 @@ lumulus_test(renderer_test SANITIZED
           ${CMAKE_CURRENT_LIST_DIR}/renderer_sparse_sampling_test.cpp
           ${CMAKE_CURRENT_LIST_DIR}/renderer_swapped_test.cpp
           ${CMAKE_CURRENT_LIST_DIR}/renderer_views_test.cpp
+          ${CMAKE_CURRENT_LIST_DIR}/shown_densities_test.cpp
           ${CMAKE_CURRENT_SOURCE_DIR}/support/vulkan_main.cpp
   LINK lumulus_render lumulus_base lumulus_vdb ${CMAKE_DL_LIBS})
 lumulus_test(renderer_atmosphere_test

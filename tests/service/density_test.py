@@ -1,13 +1,15 @@
 """Other densities for the clouds of a scene while it is served: density_test.py [unittest arguments]."""
 
+import contextlib
 import os
 import subprocess
 import time
 import unittest
 
 import numpy
+import pyopenvdb
 
-from server import LUMULUS, ServiceTest
+from server import LUMULUS, Server, ServiceTest
 from lumulus_client import ERROR, ServiceError
 
 SCENE = """
@@ -41,6 +43,15 @@ def make_cloud(name, *arguments):
                    stdout=subprocess.DEVNULL)
 
 
+def make_thick(name):
+    """A block in which a generation of photons takes hours."""
+    grid = pyopenvdb.FloatGrid()
+    grid.name = "density"
+    grid.transform = pyopenvdb.createLinearTransform(50.0)
+    grid.copyFromArray(numpy.full((24, 24, 24), 1e8, dtype=numpy.float32))
+    pyopenvdb.write(name, grid)
+
+
 def relmse(values, truth):
     return numpy.mean((values - truth) ** 2 / (truth ** 2 + 0.01 * truth.mean() ** 2))
 
@@ -57,6 +68,19 @@ class DensityTest(ServiceTest):
 
     def setUp(self):
         self.one, self.bystander = self.client(), self.client()
+
+    def refused(self, code, where="", client=None, **fields):
+        """The text of the error with which a change is answered."""
+        with self.assertRaises(ServiceError) as caught:
+            (client or self.one).change(**fields)
+        self.assertEqual((caught.exception.code, caught.exception.where), (code, where), caught.exception)
+        return str(caught.exception)
+
+    def wait_until(self, happens):
+        deadline = time.monotonic() + 60
+        while not happens():
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.02)
 
     def client(self):
         client = self.server.client()
@@ -193,6 +217,165 @@ class Density(DensityTest):
             self.one.wait(request)
         self.assertEqual(caught.exception.code, "superseded")
         self.assertEqual({self.one.frame().info["hash"]}, hashes)
+
+
+class Seconds(DensityTest):
+    """`seconds` of a change: how much later the new density is."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.far_file = os.path.join(cls.server.folder, "far_####.vdb")
+        make_cloud(cls.far_file, "--frames", "0-1", "--fps", "1", "--wind", "500,0,0")
+
+    def first_picture(self, digests, **seconds):
+        """The first picture of the second density, and how far it is from its truth. Its light is that of the first
+        density but for one generation."""
+        self.one.load_scene("moving.toml", vdb=digests[0], private=True, set=["photon_map.photons=400000"])
+        self.one.frame()  # with all generations
+        self.assertTrue(self.one.change(vdb=digests[1], **seconds)["carried"])
+        return self.green(self.one, budget={"photons": 0})[0]
+
+    def test_light_goes_along_with_velocities(self):
+        """A cloud that the wind has carried by a quarter of its width in a second."""
+        digests = [self.one.upload(self.far_file.replace("####", f"000{i}")) for i in range(2)]
+        with self.server.client() as anew:
+            anew.load_scene("moving.toml", vdb=digests[1], private=True,
+                            set=["photon_map.photons=3000000", "photon_map.generations=30", "photon_map.first_generation=900"])
+            truth = self.green(anew)[0]
+        along, behind, far = (relmse(self.first_picture(digests, **seconds), truth)
+                              for seconds in ({"seconds": 1.0}, {}, {"seconds": 4}))
+        print(f"relMSE along {along:.4f}, where it was {behind:.4f}, four times as far {far:.4f}")
+        self.assertLess(along, 0.5 * behind)
+        self.assertLess(along, 0.5 * far)
+        self.assertAlmostEqual(relmse(self.first_picture(digests, seconds=0), truth), behind, delta=1e-3 * behind)
+
+    def test_seconds_that_are_none(self):
+        digest = self.one.upload(self.other_file)
+        before = self.one.frame().info["hash"]
+        for seconds, text in ((-0.5, "must lie between 0.0 and"), (1e7, "must lie between 0.0 and"), ("1", "number"),
+                              ([1], "number"), (True, "number")):
+            with self.subTest(seconds):
+                self.assertIn(text, self.refused("bad_request", "seconds", vdb=digest, seconds=seconds))
+        self.refused("bad_request", "seconds", frame=1, seconds=1)
+        self.refused("bad_request", "seconds", seconds=1)
+        for none in (float("nan"), float("inf")):  # no JSON
+            with self.subTest(none), self.client() as client, self.assertRaises(ServiceError) as caught:
+                client.change(vdb=digest, seconds=none)
+            self.assertEqual(caught.exception.code, "bad_request")
+        self.assertEqual(self.one.frame().info["hash"], before)
+        self.assertFalse(self.one.statistics()["scene"]["own"])
+
+
+class Cancel(DensityTest):
+    """What is prepared ends on request, at any step, and its place is free."""
+
+    options = {"limits": "own_lights = 1\ngeneration_seconds = 1000\nload_seconds = 1000"}
+
+    def setUp(self):
+        super().setUp()
+        self.before = self.one.frame().info["hash"]
+        name = os.path.join(self.server.folder, "thick.vdb")
+        make_thick(name)
+        self.thick = self.one.upload(name)
+
+    def cancelled(self, request):
+        self.assertTrue(self.one.cancel(request))
+        with self.assertRaises(ServiceError) as caught:
+            self.one.wait(request)
+        self.assertEqual(caught.exception.code, "cancelled")
+        self.assertEqual(self.one.frame().info["hash"], self.before)
+        self.assertFalse(self.one.statistics()["scene"]["own"])
+        self.assertFalse(self.one.cancel(request), "there is nothing any more")
+
+    def begun(self, client=None):
+        """A request for a density that is prepared by now, and would be for hours."""
+        client = client or self.one
+        request = client.send("change", {"vdb": self.thick})
+        self.wait_until(lambda: client.statistics().get("loading", {}).get("step") == "taking over the light")
+        return request
+
+    def test_before_anything_is_done(self):
+        for _ in range(8):
+            self.cancelled(self.one.send("change", {"vdb": self.thick}))
+
+    def test_while_photons_are_traced(self):
+        request = self.begun()
+        self.assertFalse(self.bystander.cancel(request), "it is another client's")
+        self.cancelled(request)
+        # place and thread are free: of two threads neither is left where these do not end
+        for _ in range(2):
+            self.cancelled(self.begun())
+        self.assertEqual(self.bystander.change(frame=1)["clouds"][0]["file"], 1)
+        self.bystander.load_scene("moving.toml")
+
+    def test_another_one_goes_on(self):
+        first = self.begun()
+        second = self.one.send("change", {"frame": 2})
+        with self.assertRaises(ServiceError) as caught:
+            self.one.wait(first)
+        self.assertEqual(caught.exception.code, "superseded")
+        self.assertFalse(self.one.cancel(first), "it is answered")
+        self.assertEqual(self.one.wait(second)[0]["clouds"][0]["file"], 2)
+        self.assertFalse(self.one.cancel(second), "it is shown")
+        self.one.load_scene("moving.toml")
+
+
+class Limits(DensityTest):
+    options = {"limits": "generation_seconds = 2"}
+
+    def test_a_density_that_takes_too_long(self):
+        name = os.path.join(self.server.folder, "thick.vdb")
+        make_thick(name)
+        before = self.one.frame().info["hash"]
+        self.assertIn("takes longer", self.refused("too_large", vdb=self.one.upload(name)))
+        self.assertEqual(self.one.frame().info["hash"], before)
+        self.assertFalse(self.one.statistics()["scene"]["own"])
+        self.assertEqual(self.one.change(frame=1)["clouds"][0]["file"], 1)
+
+    def test_no_memory_for_the_light_of_before(self):
+        """Room for both scenes, and not for the light that goes from one to the other."""
+        with self.served("") as client:
+            empty = client.statistics()["memory_bytes"]
+            collectors = self.load(client)["collectors"]
+            one = client.statistics()["memory_scenes_bytes"]
+            self.assertTrue(client.change(frame=1)["carried"])
+            client.frame()
+            state = client.statistics()
+        both = state["memory_scenes_bytes"]
+        light = 2 * 8 * 3 * 8 ** 2 * collectors  # before and after, integers of 8 bytes, RGB, 8 bands
+        self.assertGreater(light, 2e7)
+        self.assertGreater(both, 1.5 * one)
+        for room, enough in ((0.5 * light, False), (2.5 * light, True)):
+            with self.subTest(enough=enough), self.served(f"memory_megabytes = {(empty + both + room) / 2 ** 20:.0f}") as client:
+                self.load(client)
+                before = client.frame().info["hash"]
+                if enough:
+                    self.assertTrue(client.change(frame=1)["carried"])
+                    continue
+                self.assertIn("no memory", self.refused("busy", client=client, frame=1))
+                self.assertEqual(client.frame().info["hash"], before)
+                state = client.statistics()
+                self.assertFalse(state["scene"]["own"])
+                self.assertLess(state["memory_scenes_bytes"], 1.2 * one, "nothing is left of it")
+
+    @contextlib.contextmanager
+    def served(self, limits):
+        """A client of a server of its own that has the files."""
+        server = Server(LUMULUS, limits=limits)
+        try:
+            for name in ["moving.toml", *(f"c_000{i}.vdb" for i in range(FRAMES))]:
+                os.link(os.path.join(self.server.folder, "scenes", name), os.path.join(server.folder, "scenes", name))
+            with server.client() as client:
+                yield client
+        finally:
+            server.stop()
+
+    def load(self, client):
+        reply = client.load_scene("moving.toml", set=["photon_map.bands=8", "preparation.samples=20000", "photon_map.generations=2",
+                                                      "preparation.max_leaves=8000"])
+        client.frame()
+        return reply
 
 
 class Faults(DensityTest):

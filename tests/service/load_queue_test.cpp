@@ -113,7 +113,7 @@ TEST_F(LoadQueueTest, DensitiesWaitAsScenesDoButNobodyWaitsForThem) {
     findAll({2.0, 3.0, 1.0});
     EXPECT_EQ(next({{2, "x", false}}), 0) << "in its order, before the scene of its client";
     queue.push({1, 3, {}, {}, std::make_shared<const DensityWish>()}, now);
-    const std::vector<LoadJob> taken = queue.takeDensities(1);
+    const std::vector<LoadJob> taken = queue.takeDensities(1, {});
     ASSERT_EQ(taken.size(), 1U);
     EXPECT_EQ(taken.front().id, 3U);
     EXPECT_EQ(next(), 2);

@@ -115,6 +115,8 @@ class PhotonMap {
     /// Adds counts of 2^unitExponent W, which is the unit of what was traced, as those of so many generations more. For
     /// a map without a ring, after its last generation.
     void add(std::span<const std::int64_t> counts, int generations, int unitExponent);
+    /// Counts of all parts, and of what lies behind them.
+    std::uint32_t countsOfAll() const;
     /// How the counts of the parts lie among all.
     MapPlan plan() const;
     /// Where the instances are from now on, one for each part. A map of several needs it

@@ -21,6 +21,10 @@ void PhotonMap::goOnFrom(PhotonMap& other, std::span<const std::optional<std::si
     if (s.walk && !s.places.empty()) s.placeCollectors();
 }
 
+std::uint32_t PhotonMap::countsOfAll() const {
+    return static_cast<std::uint32_t>(state_->sums.coefficients());
+}
+
 TracedSums PhotonMap::tracedSums() {
     State& s = *state_;
     const auto generations = static_cast<std::uint64_t>(generationsInRing());
