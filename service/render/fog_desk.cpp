@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "service/render/durations.h"
 #include "service/values/request_error.h"
 
 namespace lumulus::service {
@@ -172,8 +173,15 @@ void FogDesk::put(const Job& job, const Found& found) {
     if (!shown || keyOf(*shown) != job.scene)
         throw RequestError("superseded", "another scene has taken the place of this one");
     if (shown->hasFog(*found.fog)) return;
+    const auto start = Clock::now();
     shown = host_.lights.toOwn(client, shown);
     shown->apply(*found.fog, found.keys);
+    instruments_.log.event("info", "fog_shown",
+                           {{"client", client},
+                            {"scene", shown->scene().source},
+                            {"changes", found.made.size()},
+                            {"found_milliseconds", found.milliseconds},
+                            {"shown_milliseconds", millisecondsSince(start)}});
     const std::lock_guard lock(host_.mutex);
     host_.scenes.publish(*shown);
 }
@@ -220,7 +228,9 @@ FogDesk::Found FogDesk::find(const Job& job) const {
     }
     if (found.made.empty()) return found;
     try {
+        const auto start = Clock::now();
         found.fog = job.maker(media, check);
+        found.milliseconds = millisecondsSince(start);
     } catch (const InputError& e) {
         for (const Asked& asked : std::exchange(found.made, {}))
             found.refused.emplace_back(asked, failureOf(e, asked.edits));

@@ -88,6 +88,7 @@ class FogDesk {
         std::vector<std::pair<Asked, Failure>> refused;
         MediaKeys keys;
         std::shared_ptr<const NewFog> fog;  ///< null where all are refused
+        double milliseconds = 0.0;          ///< that finding it took
     };
 
     ClientId client() const { return begun_->asked.front().client; }

@@ -20,10 +20,10 @@ std::string pathOf(const MediumEdit& edit) {
     return fmt::format("{}{}.", section, edit.medium);
 }
 
-/// The place of a key that a message names, as "media[0].top"; empty where it names none of these media.
+/// The place that a message names, as "media[0].top"; empty where it is in none of these media.
 std::string placeIn(const std::string& message, std::span<const MediumEdit> edits) {
     for (std::size_t i = 0; i < edits.size(); ++i) {
-        const std::string path = pathOf(edits[i]);
+        const std::string path = fmt::format("({}", pathOf(edits[i]));
         const std::size_t found = message.find(path);
         if (found == std::string::npos) continue;
         const std::size_t begin = found + path.size();

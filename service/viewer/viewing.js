@@ -211,6 +211,11 @@ export class Viewing {
         return this.light !== null && this.light.fog !== null && Number.isFinite(this.light.fog);
     }
 
+    // The light of the last frame, with fog that the server has been asked for and has not yet.
+    get lightToCome() {
+        return this.fogSent ? {...this.light, fog: this.wishes.fog ?? this.light.fog} : this.light;
+    }
+
     changeFog(metres) {
         this.wishes.fog = metres;
         this.lightRetry = lightRetry;
