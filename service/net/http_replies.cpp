@@ -18,12 +18,13 @@ struct File {
 
 constexpr std::string_view script = "text/javascript; charset=utf-8";
 
-constexpr std::array<File, 16> files{{
+constexpr std::array<File, 17> files{{
     {"/", "text/html; charset=utf-8", viewer::index_html},
     {"/icon.svg", "image/svg+xml", viewer::icon_svg},
     {"/viewer.css", "text/css; charset=utf-8", viewer::viewer_css},
     {"/controls.js", script, viewer::controls_js},
     {"/figures.js", script, viewer::figures_js},
+    {"/fog.js", script, viewer::fog_js},
     {"/light.js", script, viewer::light_js},
     {"/link.js", script, viewer::link_js},
     {"/notices.js", script, viewer::notices_js},

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "base/version.h"
+#include "scene/aerosol.h"
 #include "service/protocol/error_reply.h"
 
 namespace lumulus::service {
@@ -26,10 +27,32 @@ json sunOf(const glm::dvec3& directionTo, const glm::dvec3& irradiance) {
     return {{"direction_to", listOf(directionTo)}, {"irradiance", listOf(irradiance)}};
 }
 
+json bodyOf(const scene::FogMedium& medium) {
+    static constexpr const char* kinds[] = {"homogeneous", "exponential", "sphere", "ellipsoid", "box"};
+    json body{{"kind", kinds[static_cast<std::size_t>(medium.kind)]},
+              {"scattering", listOf(medium.scattering)},
+              {"absorption", listOf(medium.absorption)},
+              {"g", medium.g}};
+    if (const auto visibility = scene::visibilityOf(medium.scattering + medium.absorption))
+        body["visibility"] = *visibility;
+    if (medium.kind == scene::MediumKind::exponential) body["falloff"] = medium.falloff;
+    if (std::isfinite(medium.bottom)) body["bottom"] = medium.bottom;
+    if (std::isfinite(medium.top)) body["top"] = medium.top;
+    return body;
+}
+
+json mediaOf(const std::vector<scene::FogMedium>& media) {
+    json list = json::array();
+    for (const scene::FogMedium& medium : media) list.push_back(bodyOf(medium));
+    return list;
+}
+
 json originalOf(const SceneDescription& scene) {
     json clouds = json::array();
     for (const CloudDescription& cloud : scene.originalClouds) clouds.push_back(bodyOf(cloud));
-    return {{"sun", sunOf(scene.originalSun.directionTo, scene.originalSun.irradiance)}, {"clouds", std::move(clouds)}};
+    return {{"sun", sunOf(scene.originalSun.directionTo, scene.originalSun.irradiance)},
+            {"clouds", std::move(clouds)},
+            {"media", mediaOf(scene.originalMedia)}};
 }
 
 json bodyOf(const SceneDescription& scene) {
@@ -43,6 +66,7 @@ json bodyOf(const SceneDescription& scene) {
               {"collectors", scene.collectors},
               {"device", scene.device},
               {"warnings", scene.warnings},
+              {"media", mediaOf(scene.light.media)},
               {"center", listOf(scene.centre)},
               {"radius", scene.radius}};
     if (scene.light.extinction) body["extinction"] = *scene.light.extinction;
@@ -60,6 +84,7 @@ json bodyOf(const SceneState& scene) {
             {"trace_milliseconds", scene.traceMilliseconds},
             {"sun", sunOf(scene.light.sunDirection, scene.light.sunIrradiance)},
             {"extinction", scene.light.extinction ? json(*scene.light.extinction) : json()},
+            {"media", mediaOf(scene.light.media)},
             {"own", scene.own},
             {"clients", scene.clients}};
 }

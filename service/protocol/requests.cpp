@@ -6,6 +6,7 @@
 #include "service/protocol/cloud_edit_fields.h"
 #include "service/protocol/density_fields.h"
 #include "service/protocol/frame_fields.h"
+#include "service/protocol/media_fields.h"
 #include "service/protocol/query_fields.h"
 
 namespace lumulus::service {
@@ -105,8 +106,12 @@ Change readChange(JsonFields& fields) {
     change.light.move = fields.vector("move", -1e9, 1e9);
     change.edits = readCloudEdits(fields);
     change.density = readDensity(fields);
-    if (change.light.empty() && change.edits.empty() && !change.density)
-        throw RequestError("bad_request", "nothing to change: give sun, extinction, wind, move, clouds, vdb or frame");
+    change.media = readMedia(fields);
+    if (change.light.empty() && change.edits.empty() && !change.density && change.media.empty())
+        throw RequestError("bad_request",
+                           "nothing to change: give sun, extinction, wind, move, clouds, media, vdb or frame");
+    if (!change.media.empty() && !(change.light.empty() && change.edits.empty() && !change.density))
+        throw RequestError("bad_request", "media change by themselves, without other changes", "media");
     change.cloud = fields.indexOrName("cloud", 65535, longestName);
     if (change.density && !(change.edits.empty() && change.light.empty()))
         throw RequestError("bad_request", "another density goes by itself, without other changes",

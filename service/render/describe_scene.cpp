@@ -42,6 +42,7 @@ SceneDescription describeScene(const scene::Scene& scene, const Renderer& render
     result.warnings = statistics.warnings;
     result.originalSun = scene.sun;
     result.originalClouds = cloudsOf(scene);
+    result.originalMedia = renderer.fogMedia();
     if (!scene.clouds.empty()) {
         result.asymmetry = result.originalClouds[0].asymmetry;
     }
@@ -50,7 +51,7 @@ SceneDescription describeScene(const scene::Scene& scene, const Renderer& render
     return result;
 }
 
-std::vector<std::string> repeatOverrides(const scene::Scene& scene, const Renderer& renderer) {
+std::vector<std::string> repeatOverrides(const scene::Scene& scene, const Renderer& renderer, const MediaKeys& media) {
     const Generations ring = renderer.generations();
     std::vector<std::string> overrides;
     if (ring.count > 0)
@@ -65,6 +66,7 @@ std::vector<std::string> repeatOverrides(const scene::Scene& scene, const Render
     for (std::size_t i = 0; i < scene.clouds.size(); ++i)
         if (renderer.extinction(i) != scene.clouds[i].extinction)
             overrides.push_back(fmt::format("cloud.{}.extinction={}", i, renderer.extinction(i)));
+    for (std::string& one : overridesOf(media)) overrides.push_back(std::move(one));
     return overrides;
 }
 

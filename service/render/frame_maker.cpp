@@ -56,6 +56,7 @@ void FrameMaker::applyChanges() {
     }
     apply(changes);
     host_.densities.work();
+    host_.fogs.work();
     for (const EncodingDesk::Cost& cost : costs)
         if (const SlotPointer slot = cost.slot.lock())
             slot->noteEncoded(cost.encoding, cost.report.milliseconds, cost.report.pixels);
@@ -280,6 +281,7 @@ void FrameMaker::applyBetween() {
     }
     apply(changes);
     host_.densities.work();
+    host_.fogs.work();
 }
 
 /// Makes the next picture that is foreseen to take at most so many milliseconds. Returns whether there was one.

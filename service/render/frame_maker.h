@@ -10,6 +10,7 @@
 
 #include "service/render/density_desk.h"
 #include "service/render/encoding_desk.h"
+#include "service/render/fog_desk.h"
 #include "service/render/frame_task.h"
 #include "service/render/light_desk.h"
 #include "service/render/pending_changes.h"
@@ -26,7 +27,7 @@ namespace lumulus::service {
 class FrameMaker {
   public:
     struct Host {
-        std::mutex& mutex;  ///< guards the next eight
+        std::mutex& mutex;  ///< guards the next nine
         Scheduler& scheduler;
         SceneStore& scenes;
         PendingChanges& changes;
@@ -34,6 +35,7 @@ class FrameMaker {
         SceneDesk& scenesToCome;
         LightDesk& lights;
         DensityDesk& densities;
+        FogDesk& fogs;
         const bool& closing;
         /// Takes an answer that is no picture, with the lock held.
         std::function<void(ClientId, std::uint64_t id, Reply)> reply;
@@ -43,7 +45,8 @@ class FrameMaker {
 
     FrameMaker(Instruments& instruments, Host host);
 
-    /// Makes the changes that clients were promised, shows the densities that are ready, and learns what encoding cost.
+    /// Makes the changes that clients were promised, shows the densities and the fog that are ready, and learns what
+    /// encoding cost.
     void applyChanges();
     /// Draws the picture and hands it over, or puts the job back after a generation.
     void make(const Job& job);

@@ -22,6 +22,10 @@ bool LightDesk::promise(ClientId client, const SlotPointer& slot, const LightCha
     return true;
 }
 
+void LightDesk::promiseFog(ClientId client, const SlotPointer& slot) {
+    if (!config_.sharedLight && slot->owner() != client) host_.scenes.promiseOwn(client);
+}
+
 std::optional<Failure> LightDesk::takeFailure(ClientId client) {
     const auto it = failures_.find(client);
     if (it == failures_.end()) return std::nullopt;
@@ -50,7 +54,11 @@ SlotPointer LightDesk::make(ClientId client, const SlotPointer& slot, const Edit
 
 SlotPointer LightDesk::toChange(ClientId client, const SlotPointer& slot, const LightChange& change,
                                 std::optional<std::size_t> cloud) {
-    if (!needsOwn(client, slot, change, cloud)) return slot;
+    return needsOwn(client, slot, change, cloud) ? toOwn(client, slot) : slot;
+}
+
+SlotPointer LightDesk::toOwn(ClientId client, const SlotPointer& slot) {
+    if (config_.sharedLight || slot->owner() == client) return slot;
     {
         const std::lock_guard lock(host_.mutex);
         if (SlotPointer own = host_.scenes.ownOf(client, slot)) return own;

@@ -32,6 +32,8 @@ class LightDesk {
     /// Sets a light aside for a client who is going to change that of `slot`, the scene that it sees, if it needs one.
     /// Returns whether it does. Errors: RequestError `busy` where there is no room for another.
     bool promise(ClientId client, const SlotPointer& slot, const LightChange& change, std::optional<std::size_t> cloud);
+    /// The same for a change of the fog.
+    void promiseFog(ClientId client, const SlotPointer& slot);
     /// What went wrong with the client's light since it was told last.
     std::optional<Failure> takeFailure(ClientId client);
     void noteFailure(ClientId client, Failure failure) { failures_[client] = std::move(failure); }
@@ -43,6 +45,9 @@ class LightDesk {
     /// made now if need be, or `slot` where nothing changes. Errors: RequestError `busy`.
     SlotPointer toChange(ClientId client, const SlotPointer& slot, const LightChange& change,
                          std::optional<std::size_t> cloud);
+
+    /// A scene whose light belongs to `client`, who sees `slot`; `slot` where clients share light.
+    SlotPointer toOwn(ClientId client, const SlotPointer& slot);
 
     /// Gives a client, who sees `shown`, a scene of its own with the clouds of `edited`, those of shown->sceneNow(): it
     /// sees that from now on. Errors: RequestError `busy`; `too_large` where the photon map has no room.

@@ -24,7 +24,7 @@ bool changesLight(const scene::Scene& scene, const LightChange& change, std::opt
 SceneLight LightState::now() const {
     const scene::Sun& sun = renderer_.sun();
     return {sun.directionTo, sun.irradiance,
-            scene_.clouds.empty() ? std::nullopt : std::optional(renderer_.extinction())};
+            scene_.clouds.empty() ? std::nullopt : std::optional(renderer_.extinction()), renderer_.fogMedia()};
 }
 
 LightState::Light LightState::all() const {

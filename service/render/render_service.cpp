@@ -40,8 +40,9 @@ RenderService::RenderService(const RenderConfig& config, Instruments& instrument
       lights_(config, instruments, {mutex_, scenes_, [this](const SceneSlot& slot) { return step(slot); }}),
       densities_(instruments, {mutex_, scenes_, outlets_.reply, [this] { wakeAll(); },
                                [this](const SceneSlot& slot) { return step(slot); }}),
-      maker_(instruments, {mutex_, scheduler_, scenes_, changes_, encoding_, desk_, lights_, densities_, closing_,
-                           outlets_.reply, outlets_.encode}),
+      fogs_(config, instruments, {mutex_, scenes_, lights_, outlets_.reply, [this] { wakeAll(); }}),
+      maker_(instruments, {mutex_, scheduler_, scenes_, changes_, encoding_, desk_, lights_, densities_, fogs_,
+                           closing_, outlets_.reply, outlets_.encode}),
       desk_(config, instruments, deskHost()) {
     renderThread_ = std::thread([this] { renderLoop(); });
 }
@@ -78,6 +79,7 @@ RenderService::~RenderService() {
     }
     wake_.notify_all();
     queries_.stop();
+    fogs_.stop();
     desk_.stop();
     renderThread_.join();
 }
@@ -98,6 +100,7 @@ void RenderService::removeClient(ClientId client) {
         scenes_.removeClient(client);
         desk_.removeClient(client);
         densities_.removeClient(client);
+        fogs_.removeClient(client);
         lights_.removeClient(client);
         metrics_.set(Metrics::streamsRunning, static_cast<std::int64_t>(scheduler_.streams()));
     }
@@ -125,11 +128,17 @@ void RenderService::answer(ClientId client, std::uint64_t id, const Cancel& canc
     outlets_.reply(client, id, FrameCancelled{found});
 }
 
-void RenderService::answer(ClientId client, std::uint64_t id, Change change) {
+void RenderService::answer(ClientId client, std::uint64_t id, Change change,
+                           const std::shared_ptr<MemoryBudget::Share>& memory) {
     const SlotPointer slot = scenes_.shownTo(client);
     if (!slot && desk_.defaultPending())
         throw RequestError("busy", "the default scene is being loaded: try again later");
     if (!slot) throw RequestError("no_scene", "load a scene first");
+    if (!change.media.empty()) {
+        lights_.promiseFog(client, slot);
+        fogs_.submit({client, id, std::move(change.media), memory});
+        return;
+    }
     if (!change.edits.empty() || change.density || changes_.editsOf(client)) {
         if (!change.edits.empty() || change.density) scenes_.promiseOwn(client);
         PendingChanges::Change later{client, slot, std::move(change.light), {}, true, std::move(change.edits)};
@@ -192,6 +201,7 @@ void RenderService::submit(ClientId client, std::uint64_t id, RenderRequest requ
         const auto now = Clock::now();
         if (auto* load = std::get_if<LoadScene>(&request)) {
             desk_.submit({client, id, std::move(*load), held});
+            fogs_.giveUp(client);
         } else if (auto* frame = std::get_if<FrameRequest>(&request)) {
             lights_.promise(client, scenes_.shownTo(client), frame->light, std::nullopt);
             foresee(scheduler_, client, *frame);
@@ -209,7 +219,7 @@ void RenderService::submit(ClientId client, std::uint64_t id, RenderRequest requ
         } else if (auto* query = std::get_if<QueryRequest>(&request)) {
             answer(QueryJob{client, id, std::move(*query), held});
         } else {
-            answer(client, id, std::move(std::get<Change>(request)));
+            answer(client, id, std::move(std::get<Change>(request)), held);
         }
         metrics_.set(Metrics::streamsRunning, static_cast<std::int64_t>(scheduler_.streams()));
     }
@@ -264,6 +274,7 @@ void RenderService::shutDown() {
     for (const auto& job : loads) fails(job.client, job.id);
     for (const QueryJob& job : queries_.takeAll()) fails(job.client, job.id);
     for (const QueryJob& job : ambient_.takeAll()) fails(job.client, job.id);
+    for (const FogDesk::Asked& asked : fogs_.takeAll()) fails(asked.client, asked.id);
 }
 
 void RenderService::renderLoop() {
@@ -282,7 +293,7 @@ void RenderService::renderLoop() {
             rendering_ = false;
             idle_.notify_all();
             if (stopping_) return;
-            if (changes_.any() || queries_.anyAsked() || densities_.any())
+            if (changes_.any() || queries_.anyAsked() || densities_.any() || fogs_.any())
                 continue;  // a picture that was asked for after a change shows it
             const auto now = Clock::now();
             const auto revision = [this](ClientId client) { return scenes_.revision(client); };

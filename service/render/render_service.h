@@ -11,6 +11,7 @@
 #include "service/render/ambient_desk.h"
 #include "service/render/density_desk.h"
 #include "service/render/encoding_desk.h"
+#include "service/render/fog_desk.h"
 #include "service/render/frame_maker.h"
 #include "service/render/frame_task.h"
 #include "service/render/heartbeat.h"
@@ -83,7 +84,7 @@ class RenderService {
 
     void answer(ClientId client, std::uint64_t id, const StopStream& stop);
     void answer(ClientId client, std::uint64_t id, const Cancel& cancel);
-    void answer(ClientId client, std::uint64_t id, Change change);
+    void answer(ClientId client, std::uint64_t id, Change change, const std::shared_ptr<MemoryBudget::Share>& memory);
     void answer(QueryJob query);
     void submitFrame(Job job);
     void handQueries();
@@ -108,6 +109,7 @@ class RenderService {
 
     LightDesk lights_;
     DensityDesk densities_;
+    FogDesk fogs_;
     FrameMaker maker_;  // for the render thread
     SceneDesk desk_;    // its threads take the service's lock
     std::thread renderThread_;

@@ -69,31 +69,14 @@ SceneSlot::SceneSlot(const std::shared_ptr<SceneSlot>& shown, ClientId owner, co
     light_.emplace(scene_, *renderer_);
     description_.light = light_->now();
     if (edited != nullptr && shown->source_) shown->dropsGeneration_ = true;  // nobody will see it
+    if (edited != nullptr) mediaKeys_ = shown->mediaKeys_;
     if (edited != nullptr) tracedAt_ = shown->tracedAt_;
     if (edited != nullptr) placeAdded(scene_, *renderer_, edited->origins, shown->scene_, *shown->renderer_);
 }
 
-SceneBefore SceneSlot::before() {
-    return {scene_, renderer_->changes(), renderer_->frameLight(scene_), noise_, costs_, seen_, seenReduction_, time_};
-}
-
-bool SceneSlot::goOnFrom(const SceneBefore& before, double seconds) {
-    guard_.begin("taking over the light");
-    renderer_->take(before.changes);
-    const bool goesOn = goOn(*renderer_, scene_, before, seconds, [this] { guard_.check(); });
-    if (goesOn) noise_ = before.noise.withoutPicture();
-    costs_ = before.costs;
-    costs_.forgetTracing();
-    if (wantsGeneration()) traceGeneration();
-    renderer_->setTime(time_ = before.time);
-    FrameResult picture;
-    drawViews(viewer(), before.views, before.reduction, picture);
-    viewer().of(before.reduction).viewed.drawn(before.views, renderer_->bounds(), before.time);
-    return goesOn;
-}
-
 void SceneSlot::takePlaceOf(const std::shared_ptr<SceneSlot>& shown, ClientId owner) {
     if (renderer_->take(shown->renderer_->changes())) forgetViewed();
+    mediaKeys_ = shown->mediaKeys_;
     source_ = shown->source_ ? shown->source_ : shown;
     owner_ = owner;
     key_ = keyOf(*source_, owner);
@@ -104,13 +87,6 @@ void SceneSlot::takePlaceOf(const std::shared_ptr<SceneSlot>& shown, ClientId ow
     description_.originalSun = source_->description_.originalSun;
     description_.originalClouds = source_->description_.originalClouds;
     description_.light = light_->now();
-}
-
-scene::Scene SceneSlot::sceneNow() const {
-    scene::Scene scene = scene_;
-    scene.sun = renderer_->sun();
-    for (std::size_t i = 0; i < scene.clouds.size(); ++i) scene.clouds[i].extinction = renderer_->extinction(i);
-    return scene;
 }
 
 RendererOptions SceneSlot::options() {
@@ -328,7 +304,7 @@ void SceneSlot::noteDrawn(const FrameResult& result, CostModel::Work work, doubl
 SceneShown SceneSlot::shown() const {
     const PhotonState ring = photons();
     const double age = tracedAt_.empty() ? 0.0 : millisecondsSince(tracedAt_.front()) / 1e3;
-    return {scene_.source, ring, age, noise_.relMse(ring.photons()), repeatOverrides(scene_, *renderer_)};
+    return {scene_.source, ring, age, noise_.relMse(ring.photons()), repeatOverrides(scene_, *renderer_, mediaKeys_)};
 }
 
 FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {

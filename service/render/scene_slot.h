@@ -18,6 +18,7 @@
 #include "service/render/cost_model.h"
 #include "service/render/exposure_desk.h"
 #include "service/render/light_state.h"
+#include "service/render/media_source.h"
 #include "service/render/noise.h"
 #include "service/render/render_config.h"
 #include "service/render/scene_source.h"
@@ -74,6 +75,18 @@ class SceneSlot {
     /// `cloud`: whose extinction changes; all without it. Errors: RequestError where the scene cannot have such a
     /// light.
     void apply(const LightChange& change, std::optional<std::size_t> cloud = {});
+
+    /// Finds other fog for the scene, on any thread. Errors: InputError where the scene has none.
+    FogMaker fogMaker() const { return renderer_->fogMaker(); }
+    const std::vector<scene::FogMedium>& fogMedia() const { return renderer_->fogMedia(); }
+    /// What of the media clients have changed.
+    const MediaKeys& mediaKeys() const { return mediaKeys_; }
+    bool hasFog(const NewFog& fog) const { return renderer_->hasFog(fog); }
+    /// Shows fog that fogMaker() has found for media with such keys. When canChange().
+    void apply(const NewFog& fog, MediaKeys keys) {
+        mediaKeys_ = std::move(keys);
+        if (renderer_->setFog(fog)) ++revision_;
+    }
 
     /// Brings back the light of before, where no generation was finished since it changed. Returns whether it did.
     bool revert() {
@@ -219,6 +232,7 @@ class SceneSlot {
     int seenReduction_ = 1;
     double time_ = 0.0;                ///< of the wind, of the picture that is drawn [s]
     std::optional<LightState> light_;  ///< of the renderer
+    MediaKeys mediaKeys_;
     std::shared_ptr<MemoryBudget::Share> memory_ = std::make_shared<MemoryBudget::Share>();  ///< of the whole device
     SceneDescription description_;
     CostModel costs_;

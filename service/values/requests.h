@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -151,11 +152,19 @@ struct NewDensity {
     double seconds = 0.0;         ///< by which an upload is later than what is shown; 0: nothing is known of motion
 };
 
+/// A change of a medium of the scene's fog.
+struct MediumEdit {
+    std::uint32_t medium = 0;                 ///< its index in the scene
+    bool original = false;                    ///< it becomes what the scene's file says, but for `keys`
+    std::map<std::string, std::string> keys;  ///< of [[fog.media]], with their values in TOML
+};
+
 struct Change {
     LightChange light;
     std::optional<CloudReference> cloud;  ///< whose extinction changes; absent: all clouds
     std::vector<CloudEdit> edits;         ///< one after the other; all of them or none
     std::optional<NewDensity> density;    ///< of `cloud`
+    std::vector<MediumEdit> media;        ///< of different media; all of them or none
 };
 
 enum class QueryProduct { segments, sun, groundShadow, ambient };

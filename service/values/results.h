@@ -34,9 +34,10 @@ struct CloudDescription {
 
 /// The light under which a scene is drawn, and what scatters it.
 struct SceneLight {
-    glm::dvec3 sunDirection{0.0};      ///< unit vector towards the sun
-    glm::dvec3 sunIrradiance{0.0};     ///< W/m² for each colour channel
-    std::optional<double> extinction;  ///< 1/m, of the first cloud; absent where the scene has none
+    glm::dvec3 sunDirection{0.0};           ///< unit vector towards the sun
+    glm::dvec3 sunIrradiance{0.0};          ///< W/m² for each colour channel
+    std::optional<double> extinction;       ///< 1/m, of the first cloud; absent where the scene has none
+    std::vector<scene::FogMedium> media{};  ///< of the fog
 };
 
 /// What a scene is: as it was loaded, but for the light, which is that of now.
@@ -52,6 +53,7 @@ struct SceneDescription {
     std::optional<double> asymmetry;               ///< g of the phase function; absent for those that have none
     scene::Sun originalSun;                        ///< as the file says, whatever the light is now
     std::vector<CloudDescription> originalClouds;  ///< as the file says
+    std::vector<scene::FogMedium> originalMedia;   ///< the same
     glm::dvec3 centre{0.0};                        ///< metres, of a ball around the clouds
     double radius = 0.0;                           ///< metres
 };

@@ -1,5 +1,7 @@
 // Angles of the sun, and what of a scene's light differs from its file.
 
+import {visibilityOf, visibilityShown} from "./fog.js";
+
 const degrees = 180 / Math.PI;
 
 // Degrees in -180 to 180.
@@ -29,12 +31,15 @@ export function lightShown(original, repeat) {
         const cloud = /^cloud\.(\d+)\.extinction=(.*)$/.exec(line);
         if (cloud) extinction[Number(cloud[1])] = Number(cloud[2]);
     }
-    return {sun: sunAngles(sun), extinction};
+    const {media} = original;
+    const fog = media.length > 0 ? visibilityShown(media, repeat) ?? visibilityOf(media) : null;
+    return {sun: sunAngles(sun), extinction, fog};
 }
 
-// What a viewer has to wish, {sun, extinction}, to see a light where the scene's own is `original`.
+// What a viewer has to wish, {sun, extinction, fog}, to see a light where the scene's own is `original`.
 export function changesOf(light, original) {
     const sun = light.sun.some((angle, i) => Math.abs(angle - original.sun[i]) > 0.01) ? light.sun : null;
     const extinction = new Map([...light.extinction.entries()].filter(([i, value]) => value !== original.extinction[i]));
-    return {sun, extinction};
+    const fog = light.fog !== null && Math.abs(light.fog / original.fog - 1) > 1e-3 ? light.fog : null;
+    return {sun, extinction, fog};
 }

@@ -13,6 +13,7 @@ export function freshWishes() {
         extinction: new Map(), // 1/m by the cloud's index, or by "all"
         g: new Map(),          // by the cloud's index
         fog: null,             // visibility in metres
+        newFog: null,          // visibility of fog that the scene is loaded with: its file has none
         camera: null,          // {azimuth, elevation, distance, center}
     };
 }
@@ -84,7 +85,8 @@ export function linkOf(wishes) {
     for (const name of ["extinction", "g"])
         for (const [cloud, value] of wishes[name])
             fields.set(cloud === "all" ? name : `${name}.${cloud}`, brief(value));
-    if (wishes.fog !== null) fields.set("fog", brief(wishes.fog));
+    const fog = wishes.fog ?? wishes.newFog;
+    if (fog !== null) fields.set("fog", brief(fog));
     if (wishes.camera) {
         const {azimuth, elevation, distance, center} = wishes.camera;
         fields.set("camera", [azimuth, elevation, distance, ...center].map(brief).join(","));

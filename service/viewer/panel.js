@@ -1,15 +1,20 @@
 // The sliders and fields that say how the scene looks: they show the light of the scene, and what the viewer wishes of it.
 import {buttons, fill, Sliders} from "./controls.js";
+import {visibilityOf} from "./fog.js";
 import {sunPreset} from "./light.js";
 
-const clearAir = 1e6; // metres of visibility at which the fog is the scene's own
+const visibilities = [50, 5e4]; // metres, of the slider in fog
+const clearAir = 1e5;           // at which there is none, in scenes without fog
 
 const element = (id) => document.getElementById(id);
 
 function distance(metres) {
-    if (metres >= clearAir) return "scene’s";
+    if (metres >= clearAir) return "clear";
     return metres < 1000 ? `${Math.round(metres)} m` : `${(metres / 1000).toFixed(metres < 1e4 ? 1 : 0)} km`;
 }
+
+// Metres of the slider, without figures that nobody sees.
+const visibilityAt = (value) => Number((10 ** value).toPrecision(4));
 
 const shows = {
     azimuth: (v) => `${Math.round(v)}°`,
@@ -56,14 +61,18 @@ export class Panel {
             viewing.changeSun([sliders.value("azimuth"), sliders.value("elevation")]);
         if (name === "extinction") viewing.changeExtinction(this.chosenCloud(), Number((10 ** value).toPrecision(4)));
         if (name === "exposure") viewing.wishes.exposure = value;
-        if (name !== "g" && name !== "fog") this.changed();
+        if (name === "fog" && viewing.hasFog) viewing.changeFog(visibilityAt(value));
+        if (name !== "g" && (name !== "fog" || viewing.hasFog)) this.changed();
     }
 
-    // g and fog need a scene of their own; the photons begin anew.
+    // g needs a scene of its own, and so does fog where there is none; the photons begin anew.
     released(name, value) {
-        const {scene, wishes} = this.viewing;
-        if (!scene || (name !== "g" && name !== "fog")) return;
-        if (name === "fog") wishes.fog = 10 ** value >= clearAir ? null : Math.round(10 ** value);
+        const {scene, wishes, hasFog} = this.viewing;
+        if (!scene || (name !== "g" && (name !== "fog" || hasFog))) return;
+        if (name === "fog") {
+            if (10 ** value >= clearAir) return;
+            wishes.newFog = wishes.fog = visibilityAt(value);
+        }
         if (name === "g")
             for (const i of this.chosenClouds())
                 if (scene.original.clouds[i].g !== undefined) wishes.g.set(i, value);
@@ -82,13 +91,14 @@ export class Panel {
         this.changed();
     }
 
-    // Brings the sliders to a light: {sun: [azimuth, elevation], extinction: [of each cloud]}.
+    // Brings the sliders to a light: {sun: [azimuth, elevation], extinction: [of each cloud], fog: metres or null}.
     showLight(light) {
         const {sliders} = this;
         const {clouds} = this.viewing.scene.original;
         const chosen = this.chosenClouds();
         sliders.set("azimuth", light.sun[0]);
         sliders.set("elevation", light.sun[1]);
+        this.showFog(light.fog);
         const extinction = chosen.length > 0 ? light.extinction[chosen[0]] : 0;
         sliders.enable("extinction", extinction > 0);
         if (extinction > 0) sliders.set("extinction", Math.log10(extinction));
@@ -98,12 +108,22 @@ export class Panel {
             sliders.set("g", this.viewing.wishes.g.get(scattering) ?? clouds[scattering].g);
     }
 
+    // `visibility`: null where there is no fog.
+    showFog(visibility) {
+        const {scene, hasFog} = this.viewing;
+        const own = hasFog ? visibilityOf(scene.original.media) : clearAir; // can be reached again
+        const [low, high] = visibilities;
+        this.sliders.range("fog", Math.log10(Math.min(low, own)), Math.log10(Math.max(high, own)));
+        this.sliders.set("fog", Math.log10(hasFog ? visibility : clearAir));
+    }
+
     // The light of the last frame, with what this viewer wishes.
     wishedLight() {
-        const {light, wishes: {sun, extinction}} = this.viewing;
+        const {light, wishes: {sun, extinction, fog}} = this.viewing;
         return {
             sun: sun ?? light.sun,
             extinction: light.extinction.map((value, i) => extinction.get(i) ?? extinction.get("all") ?? value),
+            fog: light.fog === null ? null : fog ?? light.fog,
         };
     }
 
@@ -115,7 +135,6 @@ export class Panel {
         element("own").checked = wishes.own;
         element("own").parentElement.hidden = !welcome.shared_light;
         this.sliders.set("exposure", wishes.exposure ?? scene.exposure);
-        this.sliders.set("fog", Math.log10(wishes.fog ?? clearAir));
         this.showLight(this.wishedLight());
     }
 

@@ -143,7 +143,7 @@ function lightLost() {
 
 // Sliders that nobody uses show the light that the picture has, whoever changed it.
 function follow() {
-    if (viewing.scene && performance.now() - viewing.touched > followTime) panel.showLight(viewing.light);
+    if (viewing.scene && performance.now() - viewing.touched > followTime) panel.showLight(viewing.lightToCome);
 }
 
 async function openFile(file) {

@@ -1,6 +1,7 @@
 // One viewer's view of the server: which scene is loaded, the stream of its pictures, and changes of its light.
 import {Connection} from "./protocol.js";
 import {freshWishes} from "./link.js";
+import {mediaFor} from "./fog.js";
 import {changesOf, lightShown} from "./light.js";
 
 const restTime = 400;          // ms without a touch after which pictures get all pixels
@@ -8,7 +9,7 @@ const hastyMilliseconds = 150; // for a picture until then
 const pollTime = {loading: 300, watching: 2000}; // ms between questions for statistics
 const longestRetry = 30000;    // ms until a scene that failed, or a light without room, is asked for again
 const lightRetry = 2000;       // ms until a light that found no room is asked for again, the first time
-const loadKeys = ["scene", "vdb", "file", "quality", "own", "g", "fog"]; // wishes that need the scene to be loaded
+const loadKeys = ["scene", "vdb", "file", "quality", "own", "g", "newFog"]; // wishes that need the scene to be loaded
 
 // `page` is told what happens: connected(isOpen), tokenWanted(), loading({name} or null), loaded(isOther), framed(message),
 // statistics(json), and lightLost() where the server gave the viewer's light up. It has `notices`, and view(): {camera, width, height, exposure}.
@@ -25,7 +26,8 @@ export class Viewing {
         this.isLoading = false;
         this.touched = 0;
         this.frameAsked = false;
-        this.unsent = new Set(); // changes of light: "sun", or the cloud of an extinction
+        this.fogSent = false;    // and not answered
+        this.unsent = new Set(); // changes of light: "sun", "fog", or the cloud of an extinction
         this.retry = 1000;
         this.lightRetry = lightRetry;
         this.isLightLost = false; // the wishes are not what the server draws, until a frame tells
@@ -88,9 +90,9 @@ export class Viewing {
     }
 
     sceneRequest() {
-        const {scene, vdb, quality, own, g, fog} = this.wishes;
+        const {scene, vdb, quality, own, g, newFog} = this.wishes;
         const set = [...g].map(([cloud, value]) => `cloud.${cloud}.phase.g=${value}`);
-        if (fog !== null) set.push(`fog.media=[{visibility=${fog}, bottom=-1000, top=1000}]`);
+        if (newFog !== null) set.push(`fog.media=[{visibility=${newFog}, bottom=-1000, top=1000}]`);
         const name = scene || (vdb ? "" : this.welcome.scene);
         const chosen = quality ?? this.welcome.quality;
         return {
@@ -115,6 +117,11 @@ export class Viewing {
             const toml = request.name ? undefined : new TextEncoder().encode("# an uploaded cloud\n");
             const {json} = await this.connection.ask("load_scene", request, toml);
             if (number !== this.loads) return;
+            if (this.wishes.fog !== null && json.original.media.length === 0 && this.wishes.newFog === null) {
+                this.wishes.newFog = this.wishes.fog; // of a link: the scene needs some to change it
+                await this.load(instead);
+                return;
+            }
             if (!instead) this.page.notices.clear("scene");
             this.loaded(json);
         } catch (error) {
@@ -152,6 +159,7 @@ export class Viewing {
         const otherwise = loadKeys.some((key) => key !== "g" && this.wishes[key] !== stays[key]) || this.wishes.g.size > 0;
         for (const key of loadKeys) this.wishes[key] = stays[key];
         this.wishes.g = new Map(stays.g);
+        if (stays.newFog === null && !this.hasFog) this.wishes.fog = null;
         if (this.scene) this.page.loaded(false);
         else if (otherwise && this.welcome.scene) this.load(true);
     }
@@ -198,7 +206,25 @@ export class Viewing {
         this.ask();
     }
 
+    // Whether the scene has fog that can change in place.
+    get hasFog() {
+        return this.light !== null && this.light.fog !== null && Number.isFinite(this.light.fog);
+    }
+
+    // The light of the last frame, with fog that the server has been asked for and has not yet.
+    get lightToCome() {
+        return this.fogSent ? {...this.light, fog: this.wishes.fog ?? this.light.fog} : this.light;
+    }
+
+    changeFog(metres) {
+        this.wishes.fog = metres;
+        this.lightRetry = lightRetry;
+        this.unsent.add("fog");
+        this.ask();
+    }
+
     sendAllLight() {
+        if (this.wishes.fog !== null && this.hasFog) this.unsent.add("fog");
         if (this.wishes.sun) this.unsent.add("sun");
         for (const cloud of this.wishes.extinction.keys()) this.unsent.add(cloud);
     }
@@ -210,8 +236,19 @@ export class Viewing {
         for (const [cloud, value] of extinction)
             if (this.unsent.has(cloud))
                 changes.push({extinction: value, ...(cloud === "all" ? {} : {cloud})});
+        // one change of fog at a time: it takes the server a while, and of those that come meanwhile the last one counts
+        const fog = this.unsent.has("fog");
         this.unsent.clear();
+        if (fog && this.fogSent) this.unsent.add("fog");
+        else if (fog) this.sendFog();
         if (changes.length > 0) await this.change(changes);
+    }
+
+    async sendFog() {
+        this.fogSent = true;
+        await this.change([{media: mediaFor(this.scene.original.media, this.wishes.fog)}]);
+        this.fogSent = false;
+        if (this.unsent.has("fog")) this.sendLight();
     }
 
     async change(changes) {
@@ -221,7 +258,7 @@ export class Viewing {
             clearTimeout(this.lightTimer);
         } catch (error) {
             if (error.code === "busy") this.waitForLight(error);
-            else if (error.code !== "closed") this.page.notices.set("light", error.message);
+            else if (error.code !== "closed" && error.code !== "superseded") this.page.notices.set("light", error.message);
         }
     }
 
@@ -241,11 +278,12 @@ export class Viewing {
     reset() {
         const {scene, vdb, file, own} = this.wishes;
         this.wishes = Object.assign(freshWishes(), {scene, vdb, file, own});
-        const changed = this.held && (this.held.g.size > 0 || this.held.fog !== null || this.held.quality !== null);
+        const changed = this.held && (this.held.g.size > 0 || this.held.newFog !== null || this.held.quality !== null);
         const other = this.isLoading || changed; // a load under way may show another scene any moment
-        const {sun, clouds} = this.scene.original;
+        const {sun, clouds, media} = this.scene.original;
         // clouds without extinction have none to go back to
         const changes = [{sun}, ...clouds.map(({extinction}, cloud) => ({cloud, extinction})).filter((one) => one.extinction > 0)];
+        if (media.length > 0) changes.push({media: media.map((_, medium) => ({medium, original: true}))});
         this.light = lightShown(this.scene.original, []);
         this.unsent.clear();
         if (!this.welcome.shared_light) this.load(); // which gives a light of the viewer's own up

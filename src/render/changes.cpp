@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "render/world_fog.h"
 
 namespace lumulus {
 
@@ -65,8 +66,9 @@ void setOffset(World& world, const glm::dvec3& offset, std::optional<std::size_t
     placeInstances(world);
 }
 
-SceneChanges changesOf(const World& world, const std::map<std::size_t, glm::dvec3>& moved) {
-    SceneChanges changes{world.lights.sun, {}, world.wind, moved};
+SceneChanges changesOf(const World& world, const std::map<std::size_t, glm::dvec3>& moved, bool otherFog) {
+    SceneChanges changes{world.lights.sun, {}, world.wind, moved, {}};
+    if (otherFog) changes.fog = std::make_shared<const NewFog>(fogOf(world));
     for (const cloud::Instance& instance : world.instances) changes.extinctions.push_back(instance.sceneExtinction);
     return changes;
 }

@@ -23,8 +23,8 @@ bool setExtinction(World& world, double extinction, std::optional<std::size_t> c
 /// Moves a cloud, or all, from where the scene has them [m].
 void setOffset(World& world, const glm::dvec3& offset, std::optional<std::size_t> cloud);
 
-/// `moved`: ways of clouds that do not lie where the scene has them [m].
-SceneChanges changesOf(const World& world, const std::map<std::size_t, glm::dvec3>& moved);
+/// `moved`: ways of clouds that do not lie where the scene has them [m]. `otherFog`: the fog is not the scene's.
+SceneChanges changesOf(const World& world, const std::map<std::size_t, glm::dvec3>& moved, bool otherFog);
 /// Sun and extinctions of another world of as many clouds; those of clouds in which there is nothing stay. Returns
 /// whether anything changed. Errors: those of setSun().
 bool takeLight(World& world, const SceneChanges& changes);

@@ -109,7 +109,7 @@ void GroundView::update(gpu::Context& context, World& world, bool coarse) {
     }
     clouds.height = first.y;
     const bool moved = !light_ || !(clouds == clouds_);
-    if (moved || !(sun_ == sun) || (sunIsCoarse_ && !coarse)) {
+    if (moved || !(sun_ == sun) || fogVersion_ != world.fogVersion || (sunIsCoarse_ && !coarse)) {
         query::Media media = straightMediaOf(context, world, stopIfInterrupted);
         if (world.fogLight) media.fog.media.clear();  // what reaches the ground through it is known
         if (moved) {
@@ -122,6 +122,7 @@ void GroundView::update(gpu::Context& context, World& world, bool coarse) {
         light_->setSky(sky);
         clouds_ = std::move(clouds);
         sun_ = sun;
+        fogVersion_ = world.fogVersion;
         sunIsCoarse_ = coarse;
     }
     light_->setDrift({first.x - first_.x, first.z - first_.z});

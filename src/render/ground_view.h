@@ -42,6 +42,7 @@ class GroundView {
     Clouds clouds_;
     glm::dvec3 first_{0.0};  ///< where the first cloud was
     std::optional<scene::Sun> sun_;
+    std::uint64_t fogVersion_ = 0;  ///< of the fog that sun and sky come through
     bool sunIsCoarse_ = false;
     double sunNodes_;
 };

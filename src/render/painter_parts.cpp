@@ -16,7 +16,7 @@ draw::DrawFeatures featuresOf(const World& world) {
     features.photons = world.hasPhotons();
     features.many = instances.size() > 1;
     features.sparse = std::ranges::any_of(instances, [](const auto* i) { return i->asset->isSparse(); });
-    features.air = world.fogLight.has_value() || world.lights.environment.atmosphere() != nullptr;
+    features.air = world.fogLight != nullptr || world.lights.environment.atmosphere() != nullptr;
     features.skyReturn = world.skyReturn.has_value();
     return features;
 }

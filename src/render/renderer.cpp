@@ -259,13 +259,6 @@ Preview Renderer::preview() {
     return preview;
 }
 
-LayeredImage Renderer::throughFog(const View& view, LayeredImage picture, std::vector<float> depth) {
-    State& s = *state_;
-    if (!s.fog) return picture;
-    return seenThroughFog(*s.fog, s.world->fog, makeCamera(view, s.world->bounds), std::move(picture),
-                          std::move(depth));
-}
-
 std::vector<std::string> Renderer::clouds() const {
     std::vector<std::string> names;
     for (const cloud::Instance& instance : state_->world->instances) names.push_back(instance.name);
@@ -354,7 +347,7 @@ bool Renderer::moveCloud(const glm::dvec3& way, std::size_t cloud) {
 }
 
 SceneChanges Renderer::changes() const {
-    return changesOf(*state_->world, state_->moved);
+    return changesOf(*state_->world, state_->moved, state_->otherFog);
 }
 
 bool Renderer::take(const SceneChanges& changes) {
@@ -362,6 +355,7 @@ bool Renderer::take(const SceneChanges& changes) {
     for (const auto& [cloud, way] : changes.moved) changed = moveCloud(way, cloud) || changed;
     const bool light = takeLight(*state_->world, changes);
     if (light) state_->lightChanged();
+    if (changes.fog) changed = setFog(*changes.fog) || changed;  // which was made in the sun of now
     return changed || light;
 }
 

@@ -16,6 +16,7 @@
 #include "base/progress.h"
 #include "query/media.h"
 #include "render/cloud_origin.h"
+#include "render/new_fog.h"
 #include "render/scene_changes.h"
 #include "scene/scene.h"
 #include "view/view.h"
@@ -198,6 +199,15 @@ class Renderer {
     bool setSun(const glm::dvec3& directionTo, const glm::dvec3& irradiance);
     /// `extinction` as in the scene [1/m]. Errors: InputError where it is 0, or where nothing is there to be extinct.
     bool setExtinction(double extinction, std::optional<std::size_t> cloud = {});
+    /// Finds other fog for the scene, beside this renderer, where setFog() takes it. Errors: InputError where the scene
+    /// was made without fog.
+    FogMaker fogMaker() const;
+    /// Puts fog that fogMaker() has found in the place of the scene's; light in it is seen at once, that of photons
+    /// ages in. Returns whether anything changed.
+    bool setFog(const NewFog& fog);
+    bool hasFog(const NewFog& fog) const;
+    /// The media of now, which a ground has ended.
+    const std::vector<scene::FogMedium>& fogMedia() const;
     /// Allows the next pictures to show the sun's first scattering by shadow volumes this many times as coarse (≥ 1)
     /// where the sun has moved: making them whole can take longer than the picture. They stay so until sharpenSun() is
     /// done, or a picture is drawn with less allowed.

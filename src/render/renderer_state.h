@@ -41,6 +41,7 @@ struct Renderer::State {
     std::map<std::size_t, glm::dvec3> moved;  ///< ways of the clouds that do not lie where the scene has them [m]
     int sunAllowed = 1;                       ///< reduction of shadow volumes
     int sinceChange = 0;                      ///< generations under the light of now
+    bool otherFog = false;                    ///< the fog is not the scene's any more
     bool tracesLightOfNow = false;            ///< the generation that is traced is one of them
     bool keepRing;
     Statistics statistics;

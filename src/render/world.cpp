@@ -12,6 +12,7 @@
 #include "medium/phase_note.h"
 #include "render/importance.h"
 #include "render/world_assets.h"
+#include "render/world_fog.h"
 #include "view/camera.h"
 #include "view/ground.h"
 #include "volume/load.h"
@@ -94,6 +95,7 @@ class Maker {
         }
         world_.bounds = unite(bounds);
         world_.light.resize(world_.instances.size());
+        shareFogLight(world_, other);
         findReachingLight(world_);
         before_ = {&other, origins};
         lightUp();
@@ -119,6 +121,7 @@ class Maker {
             world_.light[i].fewestCells = other.light[i].fewestCells;
         }
         world_.levelsOfDetail = other.levelsOfDetail;
+        shareFogLight(world_, other);
         findReachingLight(world_);
         lightUp();
         return std::move(world_);
@@ -247,7 +250,7 @@ photon::Options Maker::photonOptions() const {
     options.splitGenerations = options_.progressive;
     options.check = options_.check;
     const std::optional<photon::AirLight>& air = world_.air ? world_.air : world_.light[world_.visible().front()].air;
-    options.fog = world_.fogLight.has_value();
+    options.fog = world_.fogLight != nullptr;
     options.air = air.has_value();
     if (air) options.skyCells = air->skyFrame.size;
     options.memoryBudget = static_cast<std::uint64_t>(std::ldexp(wanted.memoryBudget, 20));

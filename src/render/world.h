@@ -36,12 +36,13 @@ struct World {
     std::vector<light::InstanceLight> light{};  ///< of each instance
     /// Where several instances are drawn: the volumes of their assets, in the order of visible().
     std::shared_ptr<const cloud::SharedVolumes> sharedVolumes{};
-    std::optional<photon::PhotonMap> photons{};     ///< of all instances; none where no photon would be of use
-    std::optional<photon::SkyReturn> skyReturn{};   ///< of the medium of all, where it has a backward peak
-    std::optional<photon::AirLight> air{};          ///< in all instances together, where several are in air or lit fog
-    std::optional<fog_light::FogLight> fogLight{};  ///< in fog without clouds, where it is lit (updateFogLight())
-    std::uint64_t fogVersion = 0;                   ///< of it
-    std::unique_ptr<const fog_light::AirOverFog> airOverFog{};  ///< of that fog, under an atmosphere
+    std::optional<photon::PhotonMap> photons{};    ///< of all instances; none where no photon would be of use
+    std::optional<photon::SkyReturn> skyReturn{};  ///< of the medium of all, where it has a backward peak
+    std::optional<photon::AirLight> air{};         ///< in all instances together, where several are in air or lit fog
+    /// In fog without clouds, where it is lit (updateFogLight()); null elsewhere. Shared by worlds of the same light.
+    std::shared_ptr<const fog_light::FogLight> fogLight{};
+    std::uint64_t fogVersion = 0;                               ///< of it, and of the media
+    std::shared_ptr<const fog_light::AirOverFog> airOverFog{};  ///< of that fog, under an atmosphere
     /// Where several instances are lit by the sun: shadow volumes with what stands before them.
     std::optional<light::SharedShadow> sharedShadow{};
     Bounds bounds{};               ///< of all instances, without their offsets

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+
+#include "base/error.h"
+#include "scene/fog_bounds.h"
 
 namespace lumulus {
 
@@ -38,20 +42,66 @@ double highestOf(const World& world) {
     return highest;
 }
 
-/// The same under an atmosphere, whose planet the fog stands on.
-void updateFogInAir(World& world, std::vector<fog_light::FogLayer> layers) {
+using Layers = std::vector<fog_light::FogLayer>;
+
+/// What lights level fog, whatever its media are.
+struct FogLights {
+    fog_light::FogSetting setting;  ///< without an atmosphere
+    sky::Environment environment;
+    fog_light::AirLights shining;       ///< in an atmosphere
+    glm::dvec3 groundAlbedo{0.0};       ///< of its planet
+    double highest = 0.0;               ///< of the clouds, there
+    std::optional<double> ground = {};  ///< height of what is below
+
+    const sky::Atmosphere* atmosphere() const { return environment.atmosphere(); }
+};
+
+FogLights fogLightsOf(World& world) {
     light::LightSet& lights = world.lights;
+    FogLights result{settingOf(lights), lights.environment, {}};
+    result.ground = result.setting.groundHeight;
+    if (result.atmosphere() == nullptr) return result;
     lights.chooseDirect(world.bounds.centre);
-    fog_light::AirLights shining{lights.direct()};
+    result.shining.direct = lights.direct();
     if (lights.environment.moon())
-        shining.other = &lights.direct() == &lights.sun ? *lights.environment.moon() : lights.sun;
-    const double highest = highestOf(world);
-    if (world.airOverFog && world.airOverFog->isOf(shining, layers, highest)) return;
-    world.fogLight.reset();  // it asks the air
-    world.airOverFog = std::make_unique<const fog_light::AirOverFog>(*lights.environment.atmosphere(), shining, layers,
-                                                                     lights.planet->albedo, highest);
-    for (const fog_light::FogLayer& air : world.airOverFog->layers()) layers.push_back(air);
-    world.fogLight.emplace(layers, world.airOverFog->setting());
+        result.shining.other = &lights.direct() == &lights.sun ? *lights.environment.moon() : lights.sun;
+    result.groundAlbedo = lights.planet->albedo;
+    result.highest = highestOf(world);
+    return result;
+}
+
+/// Whether the light of a world's fog is that of these.
+bool isLightOf(const World& world, const FogLights& lights, const Layers& layers) {
+    if (!world.fogLight) return false;
+    if (lights.atmosphere() != nullptr)
+        return world.airOverFog && world.airOverFog->isOf(lights.shining, layers, lights.highest);
+    return world.fogLight->layers() == layers && world.fogLight->setting().isSame(lights.setting);
+}
+
+/// Fog in an atmosphere stands on its planet.
+NewFog lightIn(const FogLights& lights, Layers layers, const Check& check) {
+    NewFog made;
+    if (lights.atmosphere() == nullptr) {
+        made.light = std::make_shared<const fog_light::FogLight>(layers, lights.setting, check);
+        return made;
+    }
+    made.air = std::make_shared<const fog_light::AirOverFog>(*lights.atmosphere(), lights.shining, layers,
+                                                             lights.groundAlbedo, lights.highest, check);
+    for (const fog_light::FogLayer& air : made.air->layers()) layers.push_back(air);
+    made.light = std::make_shared<const fog_light::FogLight>(layers, made.air->setting(), check);
+    return made;
+}
+
+/// The media as layers that sun and sky light, above such a ground; none where they are not.
+std::optional<Layers> litLayers(const scene::Fog& fog, const std::optional<double>& ground) {
+    std::optional<Layers> layers = fog_light::layersOf(fog);
+    if (layers && fog_light::levelsOf(*layers, ground).empty()) layers.reset();
+    return layers;
+}
+
+void take(World& world, const NewFog& fog) {
+    world.fogLight = fog.light;
+    world.airOverFog = fog.air;
     ++world.fogVersion;
 }
 
@@ -73,13 +123,50 @@ scene::FogMedium mediumOf(const fog_light::FogLayer& layer) {
 void updateFogLight(World& world) {
     const bool wanted = world.fogLight || !world.lights.isDark();
     if (world.fog.media.empty() || world.lights.environment.map() != nullptr || !wanted) return;
-    const std::optional<std::vector<fog_light::FogLayer>> layers = fog_light::layersOf(world.fog);
-    const fog_light::FogSetting setting = settingOf(world.lights);
-    if (!layers || fog_light::levelsOf(*layers, setting.groundHeight).empty()) return;
-    if (world.lights.environment.atmosphere() != nullptr) return updateFogInAir(world, *layers);
-    if (world.fogLight && world.fogLight->layers() == *layers && world.fogLight->setting().isSame(setting)) return;
-    world.fogLight.emplace(*layers, setting);
-    ++world.fogVersion;
+    const FogLights lights = fogLightsOf(world);
+    const std::optional<Layers> layers = litLayers(world.fog, lights.ground);
+    if (!layers || isLightOf(world, lights, *layers)) return;
+    take(world, lightIn(lights, *layers, stopIfInterrupted));
+}
+
+void shareFogLight(World& world, const World& other) {
+    take(world, fogOf(other));
+}
+
+NewFog fogOf(const World& world) {
+    return {world.fog.media, world.airOverFog, world.fogLight};
+}
+
+FogMaker fogMaker(World& world) {
+    if (world.fog.media.empty())
+        throw InputError("the scene was made without fog", "fog.media", "load it with a medium");
+    const bool isLit = world.fogLight != nullptr;
+    const bool staysDark = world.lights.isDark() || world.lights.environment.map() != nullptr;
+    return [lights = fogLightsOf(world), fog = world.fog, isLit, staysDark](std::vector<scene::FogMedium> media,
+                                                                            const Check& check) {
+        scene::Fog wanted = fog;
+        for (scene::FogMedium& medium : media)
+            if (lights.ground) scene::endAtGround(medium, *lights.ground);
+        wanted.media = std::move(media);
+        const std::optional<Layers> layers = litLayers(wanted, lights.ground);
+        if (isLit && !layers)
+            throw InputError("no level fog would be left, in which sun and sky have their light", "fog.media",
+                             "load the scene with these media");
+        if (!isLit && layers && !staysDark)
+            throw InputError("the fog would be level, and have light of sun and sky, as it has not now", "fog.media",
+                             "load the scene with these media");
+        NewFog made = isLit ? lightIn(lights, *layers, check) : NewFog();
+        made.media = std::move(wanted.media);
+        return std::make_shared<const NewFog>(std::move(made));
+    };
+}
+
+bool setFog(World& world, const NewFog& fog) {
+    if (fog.media == world.fog.media) return false;
+    world.fog.media = fog.media;
+    take(world, fog);
+    findReachingLight(world);
+    return true;
 }
 
 fog_light::FogSurroundings fogSurroundings(const World& world) {

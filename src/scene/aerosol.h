@@ -2,10 +2,14 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 namespace lumulus::scene {
+
+/// −ln(0.02): optical depth at the visibility (Koschmieder 1924).
+inline constexpr double koschmieder = 3.912;
 
 /// Particles of one kind: what their extinction is made of, and its colour.
 struct Aerosol {
@@ -34,5 +38,9 @@ std::vector<std::string_view> aerosolNames();
 
 /// Extinction in red, green and blue (640, 540 and 440 nm) over that at 550 nm.
 glm::dvec3 relativeExtinction(const Aerosol& aerosol);
+
+/// Visibility in metres in a medium of that extinction in red, green and blue, where the density is 1: that at 550 nm,
+/// by Ångström's law between red and green. None without extinction.
+std::optional<double> visibilityOf(const glm::dvec3& extinction);
 
 }  // namespace lumulus::scene

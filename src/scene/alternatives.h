@@ -10,7 +10,7 @@ namespace lumulus::scene {
 
 /// Pairs of keys of which only one may be given: of the same section (in an array, of the same entry), or of two
 /// sections that are no arrays.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 26> alternatives{{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 29> alternatives{{
     {"sun.direction_to", "sun.azimuth"},
     {"sun.direction_to", "sun.elevation"},
     {"cloud.vdb", "cloud.procedural"},
@@ -19,6 +19,9 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 26> a
     {"fog.media.aerosol", "fog.media.scattering"},
     {"fog.media.aerosol", "fog.media.absorption"},
     {"fog.media.aerosol", "fog.media.g"},
+    {"fog.media.albedo", "fog.media.aerosol"},
+    {"fog.media.albedo", "fog.media.scattering"},
+    {"fog.media.albedo", "fog.media.absorption"},
     {"sun.direction_to", "time.utc"},
     {"sun.direction_to", "time.latitude"},
     {"sun.direction_to", "time.longitude"},

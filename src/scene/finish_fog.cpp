@@ -52,13 +52,21 @@ void finishMedium(FogMedium& medium, const std::optional<double>& ground, const 
     if (ground) endAtGround(medium, *ground);
 }
 
-/// Splits the extinction of a visibility into scattering and absorption.
-void fillWith(const Aerosol& aerosol, FogMedium& medium, const Entry& entry) {
+void requireVisibility(const char* key, const Entry& entry) {
     if (entry.settings.find(entry.path + "visibility") == nullptr)
-        throw InputError("aerosol needs a visibility", entry.whereOf("aerosol"), "give visibility, in metres");
-    const glm::dvec3 extinction = medium.scattering * relativeExtinction(aerosol);
-    medium.scattering = aerosol.albedo * extinction;
-    medium.absorption = (1.0 - aerosol.albedo) * extinction;
+        throw InputError(fmt::format("{} needs a visibility", key), entry.whereOf(key), "give visibility, in metres");
+}
+
+/// Splits an extinction into scattering and absorption.
+void split(const glm::dvec3& extinction, const glm::dvec3& albedo, FogMedium& medium) {
+    medium.scattering = albedo * extinction;
+    medium.absorption = (1.0 - albedo) * extinction;
+}
+
+/// The same of the extinction that a visibility has given.
+void fillWith(const Aerosol& aerosol, FogMedium& medium, const Entry& entry) {
+    requireVisibility("aerosol", entry);
+    split(medium.scattering * relativeExtinction(aerosol), glm::dvec3(aerosol.albedo), medium);
     medium.g = aerosol.g;
 }
 
@@ -79,6 +87,10 @@ void finishFog(Draft& draft, const Settings& settings) {
         finishMedium(scene.fog.media[i], groundHeight(scene), entry);
         const auto aerosol = draft.aerosols.find(i);
         if (aerosol != draft.aerosols.end()) fillWith(aerosols.at(aerosol->second), scene.fog.media[i], entry);
+        const auto albedo = draft.fogAlbedos.find(i);
+        if (albedo == draft.fogAlbedos.end()) continue;
+        requireVisibility("albedo", entry);
+        split(scene.fog.media[i].scattering, albedo->second, scene.fog.media[i]);
     }
 }
 

@@ -6,8 +6,6 @@
 namespace lumulus::scene {
 namespace {
 
-constexpr double koschmieder = 3.912;  // −ln(0.02): optical depth at the visibility (Koschmieder 1924)
-
 constexpr Range heights{-1e6, 1e6};
 
 constexpr std::array fogFilters{FogFilter::scatter, FogFilter::masked, FogFilter::naive, FogFilter::gather};
@@ -83,8 +81,10 @@ std::vector<Key> mediumKeys() {
         number("fog.media.visibility", {0.0, 1e9, true}, "(scattering and absorption instead)",
                "Visibility in metres, instead of `scattering` and `absorption`: the extinction is 3.912/visibility "
                "where ϱ is 1 (Koschmieder: 2 % of the contrast is left at that distance). The medium only scatters, "
-               "unless it has an `aerosol`.",
+               "unless it has an `albedo` or an `aerosol`.",
                [](Draft& d, const Value& v) { mediumOf(d).scattering = glm::dvec3(koschmieder / v.number); }),
+        rgb("fog.media.albedo", unit, "1.0", "With `visibility`: share of the extinction that scatters.",
+            [](Draft& d, const Value& v) { d.fogAlbedos[d.entry] = v.vector; }),
         choice("fog.media.aerosol", aerosolNames(), "(none: it scatters all colours alike)",
                "Particles of the medium, whose visibility is at 550 nm: they give the single-scattering albedo, `g` "
                "and the colour (docs/fog.md).",

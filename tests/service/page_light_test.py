@@ -1,12 +1,30 @@
 """The page in headless Chromium: whose light its viewer changes, on servers that share light and on those that do not."""
 
+import math
+import time
 import unittest
+
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.keys import Keys
 
 from browser import Browser
 from page_test import PageTest
-from server import LUMULUS, Server
+from server import LUMULUS, SCENE, Server
 
 NIGHTFALL = {"sun": {"azimuth": 10, "elevation": 3}}
+
+
+# balls of fog take less time to draw than layers, which have light of sun and sky
+FOGGY = SCENE + """
+[[fog.media]]
+kind = "sphere"
+radius = 400
+visibility = 8000
+[[fog.media]]
+kind = "sphere"
+radius = 300
+visibility = 8000
+"""
 
 
 def picture(client):
@@ -69,6 +87,85 @@ class OwnLight(PageTest):
         browser.open(self.server, "#own=1")
         browser.wait(lambda: list(browser.link()) == ["camera"])
         browser.wait(lambda: browser.figures()["light"] == "the scene’s")
+
+
+class Fog(PageTest):
+    """The slider of the visibility, in a scene whose fog it changes in place and in one that has none."""
+
+    size = {"width": 400, "height": 480}
+
+    def open(self, fragment=""):
+        self.browser.open(self.server, fragment)
+        if not self.browser.element("panel").is_displayed():  # the window is small
+            self.browser.click("#fold")
+
+    def setUp(self):
+        self.server.write("scenes/foggy.toml", FOGGY)
+        self.open("#scene=foggy.toml")
+
+    def shown(self):
+        return self.browser.run("return document.getElementById('fog').parentElement.querySelector('output').textContent")
+
+    def test_fog_changes_in_place(self):
+        browser = self.browser
+        self.assertAlmostEqual(browser.value("fog"), math.log10(4000), delta=0.002)  # both media together
+        self.assertEqual(self.shown(), "4.0 km")
+        browser.wait(lambda: browser.figures()["light"] == "the scene’s")
+        before = browser.picture()
+        browser.run("window.loaded = 0; new MutationObserver(() => { if (!document.getElementById('loading').hidden) ++window.loaded; })"
+                    ".observe(document.getElementById('loading'), {attributes: true})")
+        browser.set("fog", 2.5)
+        browser.wait(lambda: browser.figures()["light"] == "own")
+        browser.wait(lambda: browser.picture() != before)
+        self.assertEqual(self.shown(), "316 m")
+        browser.run("document.getElementById('fog').focus()")
+        ActionChains(browser.driver).send_keys(Keys.ARROW_LEFT * 10).perform()
+        browser.wait(lambda: browser.link().get("fog") == "309")
+        self.assertEqual(browser.run("return window.loaded"), 0, "no scene was loaded")
+        # the link brings it back
+        fragment = browser.run("return location.hash")
+        self.open(fragment)
+        browser.wait(lambda: browser.figures()["light"] == "own")
+        self.assertAlmostEqual(browser.value("fog"), math.log10(309), delta=0.002)
+        self.assertEqual((browser.link()["fog"], browser.notices()), ("309", {}))
+        # which stays the same when the sliders follow the light of the picture
+        browser.run("document.activeElement.blur()")
+        time.sleep(4)  # followTime of the page
+        self.assertAlmostEqual(browser.value("fog"), math.log10(309), delta=0.002)
+        browser.click("#reset")
+        browser.wait(lambda: browser.figures()["light"] == "the scene’s" and "fog" not in browser.link())
+        browser.wait(lambda: self.shown() == "4.0 km")
+        self.assertEqual(browser.errors(), [])
+
+    def test_a_slider_that_is_dragged_shows_its_end(self):
+        browser = self.browser
+        for visibility in (4.6, 4.0, 3.0, 2.0, 1.7, 2.4):
+            browser.run("""const control = document.getElementById("fog");
+                control.value = arguments[0];
+                control.dispatchEvent(new Event("input"));""", visibility)
+            frames = browser.frames()
+            browser.wait(lambda: browser.frames() > frames)
+        with self.server.client() as client:
+            state = client.load_scene("foggy.toml")["media"]
+            self.assertAlmostEqual(state[0]["visibility"], 8000, delta=1e-6)
+        browser.wait(lambda: browser.link().get("fog") == "251.2" and browser.notices() == {})
+        # what is drawn, by what the sliders follow
+        browser.wait(lambda: round(browser.run("return performance.now()")) > 0 and abs(browser.value("fog") - 2.4) < 0.002)
+
+    def test_fog_comes_into_a_scene_without(self):
+        browser = self.browser
+        self.open()
+        self.assertEqual((self.shown(), browser.value("fog")), ("clear", 5))
+        browser.set("fog", 3)
+        browser.wait(lambda: browser.link().get("fog") == "1000" and self.shown() == "1.0 km")
+        browser.wait(lambda: browser.figures()["light"].startswith("the scene’s"))  # it is loaded with that
+        browser.set("fog", 2)
+        browser.wait(lambda: browser.figures()["light"] == "own")
+        self.open(browser.run("return location.hash"))
+        browser.wait(lambda: browser.link().get("fog") == "100" and self.shown() == "100 m")
+        browser.click("#reset")
+        browser.wait(lambda: self.shown() == "clear" and "fog" not in browser.link())
+        self.assertEqual((browser.notices(), browser.errors()), ({}, []))
 
 
 class HeavyLight(unittest.TestCase):

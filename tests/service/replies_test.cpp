@@ -136,7 +136,16 @@ TEST(Replies, ASceneTellsWhatItsFileSays) {
     scene.originalSun.directionTo = {0.0, 1.0, 0.0};
     scene.originalSun.irradiance = {1.0, 2.0, 3.0};
     scene.originalClouds = {{"west", 0.5, 0.25}, {"1", 0.125, std::nullopt}};
+    scene.originalMedia.resize(2);
+    scene.originalMedia[0].scattering = glm::dvec3(3.912);
+    scene.originalMedia[0].top = 50.0;
+    scene.originalMedia[1].kind = scene::MediumKind::exponential;
+    scene.originalMedia[1].g = 0.5;
+    scene.originalMedia[1].falloff = 0.25;
     EXPECT_EQ(json::parse(encodeReply(1, scene).json)["original"], json::parse(R"({
+        "media":[{"kind":"homogeneous","scattering":[3.912,3.912,3.912],"absorption":[0.0,0.0,0.0],"g":0.9,
+                  "visibility":1.0,"top":50.0},
+                 {"kind":"exponential","scattering":[0.0,0.0,0.0],"absorption":[0.0,0.0,0.0],"g":0.5,"falloff":0.25}],
         "sun":{"direction_to":[0.0,1.0,0.0],"irradiance":[1.0,2.0,3.0]},
         "clouds":[{"name":"west","extinction":0.5,"g":0.25},{"name":"1","extinction":0.125}]})"));
 }

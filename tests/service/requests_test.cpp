@@ -188,6 +188,45 @@ TEST(Requests, ASceneIsAsSmallAsAFileOfOne) {
     EXPECT_EQ(refusal(request(MessageType::loadScene, "{}", std::vector<std::byte>((1U << 20U) + 1))), "too_large: ");
 }
 
+TEST(Requests, AChangeMayListMedia) {
+    const auto change = [](const std::string& json) {
+        return std::get<Change>(parseRequest(request(MessageType::change, json.c_str()), {}));
+    };
+    const auto refused = [](const std::string& json) { return refusal(request(MessageType::change, json.c_str())); };
+    const Change asked = change(
+        R"({"media":[{"medium":3,"visibility":800,"albedo":[1,0.5,1e-3],"aerosol":"urb\"an","g":null},
+                     {"medium":0,"original":true}]})");
+    ASSERT_EQ(asked.media.size(), 2U);
+    EXPECT_EQ(asked.media[0].medium, 3U);
+    EXPECT_FALSE(asked.media[0].original);
+    EXPECT_EQ(asked.media[0].keys,
+              (std::map<std::string, std::string>{
+                  {"aerosol", R"("urb\"an")"}, {"albedo", "[1,0.5,0.001]"}, {"visibility", "800"}}));
+    EXPECT_EQ(asked.media[1].medium, 0U);
+    EXPECT_TRUE(asked.media[1].original && asked.media[1].keys.empty());
+    for (const auto& [edit, where] : std::initializer_list<std::pair<const char*, const char*>>{
+             {R"({"g":0})", "media[0].medium"},
+             {R"({"medium":256,"g":0})", "media[0].medium"},
+             {R"({"medium":0.5,"g":0})", "media[0].medium"},
+             {R"({"medium":0})", "media[0]"},
+             {R"({"medium":0,"original":false})", "media[0]"},
+             {R"({"medium":0,"kind":"box"})", "media[0].kind"},
+             {R"({"medium":0,"g=1,x":0})", "media[0].g=1,x"},
+             {R"({"medium":0,"g":true})", "media[0].g"},
+             {R"({"medium":0,"g":{}})", "media[0].g"},
+             {R"({"medium":0,"albedo":[1,1]})", "media[0].albedo"},
+             {R"({"medium":0,"albedo":[1,1,"1"]})", "media[0].albedo"},
+             {R"(7)", "media[0]"},
+             {R"({"medium":0,"g":0},{"medium":0,"g":1})", "media[1].medium"}})
+        EXPECT_EQ(refused("{\"media\":[" + std::string(edit) + "]}"), "bad_request: " + std::string(where)) << edit;
+    EXPECT_EQ(refused(R"({"media":[{"medium":0,"aerosol":")" + std::string(61, 'a') + "\"}]}"),
+              "bad_request: media[0].aerosol");
+    EXPECT_EQ(refused(R"({"media":[]})"), "bad_request: media");
+    EXPECT_EQ(refused(R"({"media":{}})"), "bad_request: media");
+    EXPECT_EQ(refused(R"({"media":[{"medium":0,"g":0}],"extinction":1})"), "bad_request: media");
+    EXPECT_EQ(refused(R"({"media":[{"medium":0,"g":0}],"frame":1})"), "bad_request: media");
+}
+
 TEST(Requests, AChangeMayGiveACloudAnotherDensity) {
     const std::string hash(64, 'a');
     const auto change = [](const std::string& json) {

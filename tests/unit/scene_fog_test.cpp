@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "scene/aerosol.h"
 #include "scene/fog_bounds.h"
 #include "scene/load.h"
 #include "support/scene_message.h"
@@ -122,6 +123,29 @@ TEST(SceneFog, AnAerosolGivesAlbedoAndColour) {
     for (const char* key : {"scattering", "absorption", "g"}) {
         EXPECT_THAT(sceneMessage(std::string("[[fog.media]]\naerosol = \"urban\"\n") + key + " = 0.5"),
                     HasSubstr("exclude each other"));
+    }
+}
+
+TEST(SceneFog, AnAlbedoSplitsTheExtinctionOfAVisibility) {
+    const FogMedium medium =
+        parseScene("[[fog.media]]\nvisibility = 3912\nalbedo = [0.25, 0.5, 1.0]", "x.toml").fog.media.at(0);
+    for (int c = 0; c < 3; ++c) {
+        const double albedo = 0.25 * std::exp2(c);
+        EXPECT_DOUBLE_EQ(medium.scattering[c], 0.001 * albedo);
+        EXPECT_DOUBLE_EQ(medium.absorption[c], 0.001 * (1.0 - albedo));
+    }
+    EXPECT_THAT(sceneMessage("[[fog.media]]\nalbedo = 0.5"), HasSubstr("albedo needs a visibility (x.toml:2"));
+    for (const char* key : {"scattering = 0.1", "absorption = 0.1", "aerosol = \"urban\""})
+        EXPECT_THAT(sceneMessage(std::string("[[fog.media]]\nalbedo = 0.5\n") + key), HasSubstr("exclude each other"));
+}
+
+TEST(SceneFog, AVisibilityIsFoundAgainInTheExtinction) {
+    EXPECT_FALSE(visibilityOf(glm::dvec3(0.0)));
+    EXPECT_DOUBLE_EQ(*visibilityOf(glm::dvec3(3.912)), 1.0);
+    for (const std::string_view name : aerosolNames()) {
+        const std::string text = "[[fog.media]]\nvisibility = 700\naerosol = \"" + std::string(name) + "\"";
+        const FogMedium medium = parseScene(text, "x.toml").fog.media.at(0);
+        EXPECT_NEAR(*visibilityOf(medium.scattering + medium.absorption), 700.0, 1e-9) << name;
     }
 }
 

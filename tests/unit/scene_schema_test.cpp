@@ -45,7 +45,7 @@ std::string companionOf(const Key& key) {
     if (key.name == "field.largest") return "smallest = 1.0\n";
     if (key.name.starts_with("field.")) return "";
     if (name == "center" || name == "radius") return "kind = \"sphere\"\n";
-    if (name == "aerosol") return "visibility = 1000\n";
+    if (name == "aerosol" || key.name == "fog.media.albedo") return "visibility = 1000\n";
     if (name == "half_size") return "kind = \"box\"\n";
     return "";
 }

@@ -156,6 +156,10 @@ Fog::Fog(gpu::Context& context, const scene::Fog& scene, Check check)
 
 Fog::~Fog() = default;
 
+void Fog::setMedia(std::vector<scene::FogMedium> media) {
+    state_->scene.media = std::move(media);
+}
+
 std::vector<glm::vec4> Fog::apply(const Layer& layer, const Camera& camera) {
     State& s = *state_;
     Surface& surface = s.surfaceOf({camera.width, camera.height});

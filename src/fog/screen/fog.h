@@ -30,6 +30,9 @@ class Fog {
     Fog(gpu::Context& context, const scene::Fog& scene, Check check = stopIfInterrupted);
     ~Fog();
 
+    /// Puts other media in the place of the scene's; it stays to have some.
+    void setMedia(std::vector<scene::FogMedium> media);
+
     /// The layer as seen by `camera`, whose picture it fills: RGB of each pixel. Uploads the layer once and downloads
     /// the result once.
     std::vector<glm::vec4> apply(const Layer& layer, const Camera& camera);

@@ -54,29 +54,30 @@ glm::dvec3 ofSlantPath(const std::vector<FogLayer>& layers, const glm::dvec3& ab
 }  // namespace
 
 AirOverFog::AirOverFog(const sky::Atmosphere& atmosphere, const AirLights& lights, const std::vector<FogLayer>& fog,
-                       const glm::dvec3& albedo, double highest)
+                       const glm::dvec3& albedo, double highest, const Check& check)
     : atmosphere_(atmosphere),
       lights_(lights),
       fog_(fog),
       albedo_(albedo),
       top_(levelsOf(fog, atmosphere.groundHeight()).back()),
       highest_(highest) {
-    addEyes({top_});
+    addEyes({top_}, check);
     albedoOfFog_ = albedoAbove();
     atmosphere_ = atmosphere.withGround(albedoOfFog_);
     eyes_.clear();
-    addPlanes();
+    addPlanes(check);
     std::vector<double> heights{top_};
     for (const double level : sky::SkyMaps::heights) {
         const double height = atmosphere.groundHeight() + level;
         if (height > top_ && height < highest) heights.push_back(height);
     }
     if (highest > top_) heights.push_back(highest);
-    addEyes(heights);
+    addEyes(heights, check);
 }
 
-void AirOverFog::addEyes(const std::vector<double>& heights) {
+void AirOverFog::addEyes(const std::vector<double>& heights, const Check& check) {
     for (const double height : heights) {
+        check();
         const glm::dvec3 eye = atmosphere_.aboveFoot(height - atmosphere_.groundHeight());
         Eye& made = eyes_.emplace_back(Eye{height, {}});
         made.views.push_back(skyFrom(eye, lights_.direct));
@@ -87,7 +88,7 @@ void AirOverFog::addEyes(const std::vector<double>& heights) {
 /// Most of the air is below this height above the fog [m].
 constexpr double planeHeight = 25e3;
 
-void AirOverFog::addPlanes() {
+void AirOverFog::addPlanes(const Check& check) {
     if (!(lights_.direct.directionTo.y > 0.0)) return;
     FogSetting light;
     light.toSun = lights_.direct.directionTo;
@@ -95,11 +96,11 @@ void AirOverFog::addPlanes() {
     light.groundHeight = atmosphere_.groundHeight();
     light.groundAlbedo = albedoOfFog_;
     const std::vector<FogLayer> air = layersUpTo(top_ + planeHeight);
-    withGround_.emplace(air, light);
+    withGround_.emplace(air, light, check);
     std::vector<FogLayer> all = fog_;
     all.insert(all.end(), air.begin(), air.end());
     light.groundAlbedo = albedo_;
-    withFog_.emplace(all, light);
+    withFog_.emplace(all, light, check);
 }
 
 /// Light that comes from above with the fog, over that with the ground that counts for it.

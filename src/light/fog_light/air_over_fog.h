@@ -23,9 +23,9 @@ struct AirLights {
 /// that it sends it in other directions is the factor between two plane-parallel worlds.
 class AirOverFog {
   public:
-    /// `albedo`: of the ground, RGB. `highest`: of the clouds.
+    /// `albedo`: of the ground, RGB. `highest`: of the clouds. `check` as of FogLight.
     AirOverFog(const sky::Atmosphere& atmosphere, const AirLights& lights, const std::vector<FogLayer>& fog,
-               const glm::dvec3& albedo, double highest);
+               const glm::dvec3& albedo, double highest, const Check& check = stopIfInterrupted);
 
     /// Whether it is that of these.
     bool isOf(const AirLights& lights, const std::vector<FogLayer>& fog, double highest) const;
@@ -54,9 +54,9 @@ class AirOverFog {
         double height;
         std::vector<sky::SkyView> views;  ///< of each light
     };
-    void addEyes(const std::vector<double>& heights);
+    void addEyes(const std::vector<double>& heights, const Check& check);
     glm::dvec3 albedoAbove() const;
-    void addPlanes();
+    void addPlanes(const Check& check);
     glm::dvec3 changeOfSky(double height, double up, double azimuth) const;
     std::vector<FogLayer> layersUpTo(double height) const;
     Seen seenFrom(const Eye& eye, const glm::dvec3& direction) const;

@@ -73,7 +73,7 @@ bool FogSetting::isSame(const FogSetting& other) const {
            groundHeight == other.groundHeight && groundAlbedo == other.groundAlbedo;
 }
 
-FogLight::FogLight(const std::vector<FogLayer>& layers, const FogSetting& setting)
+FogLight::FogLight(const std::vector<FogLayer>& layers, const FogSetting& setting, const Check& check)
     : layers_(layers), setting_(setting), levels_(levelsOf(layers, setting.groundHeight)) {
     std::vector<Stack> stacks;
     for (int channel = 0; channel < 3; ++channel) stacks.push_back(makeStack(layers_, levels_, channel));
@@ -82,6 +82,7 @@ FogLight::FogLight(const std::vector<FogLayer>& layers, const FogSetting& settin
     const SkyLight sky = skyLight(setting_);
     std::vector<Solved> solved(3, Solved{std::vector<Vector>(static_cast<std::size_t>(modes)), 0.0});
     tbb::parallel_for(0, 3 * modes, [&](int task) {
+        check();
         const int channel = task % 3;
         const auto c = static_cast<std::size_t>(channel);
         solveMode(stacks[c], setting_, sky, channel, task / 3, solved[c]);
@@ -107,6 +108,7 @@ FogLight::FogLight(const std::vector<FogLayer>& layers, const FogSetting& settin
     const int skyModes = setting.skyAt ? modeCount : 1;
     std::vector<Solved> ofSky(3, Solved{std::vector<Vector>(static_cast<std::size_t>(skyModes)), 0.0});
     tbb::parallel_for(0, 3 * skyModes, [&](int task) {
+        check();
         const auto c = static_cast<std::size_t>(task % 3);
         solveMode(stacks[c], dark, sky, task % 3, task / 3, ofSky[c]);
     });

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/interrupt.h"
 #include "light/fog_light/fog_layers.h"
 
 namespace lumulus::fog_light {
@@ -29,8 +30,8 @@ struct FogSetting {
 class FogLight {
   public:
     /// Solves the transport. Needs layers with some height above the ground (levelsOf()). Layers of air follow those of
-    /// droplets.
-    FogLight(const std::vector<FogLayer>& layers, const FogSetting& setting);
+    /// droplets. `check` is asked between the steps, on any thread; what it throws ends them.
+    FogLight(const std::vector<FogLayer>& layers, const FogSetting& setting, const Check& check = stopIfInterrupted);
 
     const std::vector<FogLayer>& layers() const { return layers_; }
     const FogSetting& setting() const { return setting_; }
