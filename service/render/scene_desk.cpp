@@ -126,8 +126,8 @@ SceneLoader::Host SceneDesk::loaderHost() {
         makeRoomFor(slot);
         return host_.densities.before(job, check);
     };
-    host.prepared = [this](const LoadJob& job, SlotPointer slot, DensityChanged changed) {
-        prepared(job, std::move(slot), std::move(changed));
+    host.prepared = [this](const LoadJob& job, SlotPointer slot, DensityChanged changed, MemoryBudget::Share light) {
+        prepared(job, std::move(slot), std::move(changed), std::move(light));
     };
     host.failed = [this](const LoadJob& job, const Failure& failure) { loadFailed(job, failure); };
     return host;
@@ -145,8 +145,9 @@ void SceneDesk::makeRoomFor(const SlotPointer& slot) {
     makeRoom(host_.mutex, host_.scenes, [&] { return slot->holdMemory(instruments_.memory); });
 }
 
-void SceneDesk::prepared(const LoadJob& job, SlotPointer slot, DensityChanged changed) {
+void SceneDesk::prepared(const LoadJob& job, SlotPointer slot, DensityChanged changed, MemoryBudget::Share light) {
     makeRoomFor(slot);
+    light = {};
     {
         const std::lock_guard lock(host_.mutex);
         const std::optional<bool> waits = loader_.end(job);

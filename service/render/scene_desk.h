@@ -83,7 +83,7 @@ class SceneDesk {
     void loaded(const LoadJob& job, const SlotPointer& slot);
     void loadFailed(const LoadJob& job, const Failure& failure);
     void makeRoomFor(const SlotPointer& slot);
-    void prepared(const LoadJob& job, SlotPointer slot, DensityChanged changed);
+    void prepared(const LoadJob& job, SlotPointer slot, DensityChanged changed, MemoryBudget::Share light);
     std::vector<LoadJob> takeDensities(ClientId client, std::optional<std::uint64_t> id);
     void giveUpDensities(ClientId client);
     void letWait(ClientId client, bool loads);

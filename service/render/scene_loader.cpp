@@ -232,13 +232,13 @@ void SceneLoader::prepare(Lane& lane, const LoadQueue::Entry& entry) {
         SlotPointer slot = makeSlot(lane, entry, std::move(densities.copies));
         densities = {};
         noteStep(lane, "waiting for the light of before");
-        const SceneBefore before = host_.before(job, slot, stopFor(lane));  // counts until the scene is made
+        SceneBefore before = host_.before(job, slot, stopFor(lane));
         DensityChanged changed;
         changed.carried = slot->goOnFrom(before, job.density->density.seconds);
         changed.clouds = cloudsShown(entry.source->scene, *job.density);
         stopFor(lane)();
         noteLoaded(entry, start);
-        host_.prepared(job, std::move(slot), std::move(changed));
+        host_.prepared(job, std::move(slot), std::move(changed), std::move(before.memory));
     });
 }
 

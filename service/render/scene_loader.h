@@ -34,8 +34,9 @@ class SceneLoader {
         /// The scene that goes on as the slot, which has another density, when it is ready to. Waits and throws as
         /// above.
         std::function<SceneBefore(const LoadJob&, const SlotPointer&, const std::function<void()>& check)> before;
-        /// Takes a scene with another density, and whether it goes on with light, in the place of `loaded`.
-        std::function<void(const LoadJob&, SlotPointer, DensityChanged)> prepared;
+        /// Takes a scene with another density, and whether it goes on with light, in the place of `loaded`. `light`
+        /// counts until the scene is counted whole.
+        std::function<void(const LoadJob&, SlotPointer, DensityChanged, MemoryBudget::Share light)> prepared;
         std::function<void(const LoadJob&, const Failure&)> failed;
     };
 
