@@ -5,11 +5,12 @@ import {sunPreset} from "./light.js";
 
 const visibilities = [50, 5e4]; // metres, of the slider in fog
 const clearAir = 1e5;           // at which there is none, in scenes without fog
+const isClear = (metres) => metres > 0.99 * clearAir; // sliders have steps
 
 const element = (id) => document.getElementById(id);
 
 function distance(metres) {
-    if (metres >= clearAir) return "clear";
+    if (isClear(metres)) return "clear";
     return metres < 1000 ? `${Math.round(metres)} m` : `${(metres / 1000).toFixed(metres < 1e4 ? 1 : 0)} km`;
 }
 
@@ -70,7 +71,7 @@ export class Panel {
         const {scene, wishes, hasFog} = this.viewing;
         if (!scene || (name !== "g" && (name !== "fog" || hasFog))) return;
         if (name === "fog") {
-            if (10 ** value >= clearAir) return;
+            if (isClear(10 ** value)) return;
             wishes.newFog = wishes.fog = visibilityAt(value);
         }
         if (name === "g")

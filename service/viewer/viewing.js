@@ -27,6 +27,7 @@ export class Viewing {
         this.touched = 0;
         this.frameAsked = false;
         this.fogSent = false;    // and not answered
+        this.fogUnseen = false;  // nor seen in a frame since
         this.unsent = new Set(); // changes of light: "sun", "fog", or the cloud of an extinction
         this.retry = 1000;
         this.lightRetry = lightRetry;
@@ -213,7 +214,7 @@ export class Viewing {
 
     // The light of the last frame, with fog that the server has been asked for and has not yet.
     get lightToCome() {
-        return this.fogSent ? {...this.light, fog: this.wishes.fog ?? this.light.fog} : this.light;
+        return this.fogSent || this.fogUnseen ? {...this.light, fog: this.wishes.fog ?? this.light.fog} : this.light;
     }
 
     changeFog(metres) {
@@ -248,6 +249,7 @@ export class Viewing {
         this.fogSent = true;
         await this.change([{media: mediaFor(this.scene.original.media, this.wishes.fog)}]);
         this.fogSent = false;
+        this.fogUnseen = true;
         if (this.unsent.has("fog")) this.sendLight();
     }
 
@@ -297,6 +299,7 @@ export class Viewing {
         this.retry = 1000;
         if (this.isLoading) return; // it shows the scene of before
         this.light = lightShown(this.scene.original, message.json.repeat);
+        this.fogUnseen = false;
         if (this.isLightLost) {
             this.isLightLost = false;
             Object.assign(this.wishes, changesOf(this.light, lightShown(this.scene.original, [])));

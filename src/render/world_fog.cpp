@@ -99,10 +99,66 @@ std::optional<Layers> litLayers(const scene::Fog& fog, const std::optional<doubl
     return layers;
 }
 
+/// Whether the light of a world's fog is that of its media.
+bool isUpToDate(World& world) {
+    const FogLights lights = fogLightsOf(world);
+    const std::optional<Layers> layers = litLayers(world.fog, lights.ground);
+    return layers && isLightOf(world, lights, *layers);
+}
+
 void take(World& world, const NewFog& fog) {
     world.fogLight = fog.light;
     world.airOverFog = fog.air;
     ++world.fogVersion;
+}
+
+using Boxes = std::vector<std::optional<photon::Box>>;
+
+Boxes boxesOf(const World& world) {
+    Boxes boxes;
+    for (const cloud::Instance& instance : world.instances)
+        boxes.push_back(instance.asset == nullptr
+                            ? std::nullopt
+                            : std::optional(photon::Box{instance.origin + instance.offset, instance.voxelToMetres,
+                                                        glm::dvec3(instance.asset->size)}));
+    return boxes;
+}
+
+bool areSame(const Boxes& a, const Boxes& b) {
+    return std::ranges::equal(a, b, [](const auto& one, const auto& other) {
+        if (!one || !other) return !one && !other;
+        return one->origin == other->origin && one->edges == other->edges && one->size == other->size;
+    });
+}
+
+FogInClouds lightInClouds(const fog_light::FogSurroundings& fog, const scene::Sun& direct, const Boxes& boxes) {
+    FogInClouds light{boxes, {}, {}};
+    const bool many = std::ranges::count_if(boxes, [](const auto& box) { return box.has_value(); }) > 1;
+    glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
+    for (const std::optional<photon::Box>& box : boxes) {
+        std::optional<photon::AirLight>& each = light.each.emplace_back();
+        if (!box) continue;
+        each = photon::makeFogAirLight(fog, !many, direct, *box);
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 at(corner & 1, (corner >> 1) & 1, corner >> 2);
+            const glm::dvec3 point = box->origin + box->edges * (at * box->size);
+            lower = glm::min(lower, point), upper = glm::max(upper, point);
+        }
+    }
+    if (many)
+        light.all = photon::makeFogAirLight(fog, true, direct, photon::Box{lower, glm::dmat3(1.0), upper - lower});
+    return light;
+}
+
+void put(World& world, FogInClouds found) {
+    for (std::size_t i = 0; i < world.instances.size(); ++i) {
+        if (!found.each[i]) continue;
+        light::InstanceLight& light = world.light[i];
+        light.air = std::move(found.each[i]);
+        light.sun = world.lights.direct();
+        light.sun.irradiance *= light.air->mostSun;
+    }
+    if (found.all) world.air = std::move(found.all);
 }
 
 scene::FogMedium mediumOf(const fog_light::FogLayer& layer) {
@@ -142,8 +198,9 @@ FogMaker fogMaker(World& world) {
         throw InputError("the scene was made without fog", "fog.media", "load it with a medium");
     const bool isLit = world.fogLight != nullptr;
     const bool staysDark = world.lights.isDark() || world.lights.environment.map() != nullptr;
-    return [lights = fogLightsOf(world), fog = world.fog, isLit, staysDark](std::vector<scene::FogMedium> media,
-                                                                            const Check& check) {
+    const FogLights shining = fogLightsOf(world);
+    return [lights = shining, direct = world.lights.direct(), boxes = boxesOf(world), fog = world.fog, isLit,
+            staysDark](std::vector<scene::FogMedium> media, const Check& check) {
         scene::Fog wanted = fog;
         for (scene::FogMedium& medium : media)
             if (lights.ground) scene::endAtGround(medium, *lights.ground);
@@ -156,6 +213,8 @@ FogMaker fogMaker(World& world) {
             throw InputError("the fog would be level, and have light of sun and sky, as it has not now", "fog.media",
                              "load the scene with these media");
         NewFog made = isLit ? lightIn(lights, *layers, check) : NewFog();
+        check();
+        if (isLit) made.inClouds = lightInClouds({*made.light, made.air.get()}, direct, boxes);
         made.media = std::move(wanted.media);
         return std::make_shared<const NewFog>(std::move(made));
     };
@@ -165,7 +224,12 @@ bool setFog(World& world, const NewFog& fog) {
     if (fog.media == world.fog.media) return false;
     world.fog.media = fog.media;
     take(world, fog);
-    findReachingLight(world);
+    if (fog.inClouds && areSame(fog.inClouds->boxes, boxesOf(world)) && isUpToDate(world)) {
+        put(world, *fog.inClouds);
+        findSkyReturn(world);
+    } else {
+        findReachingLight(world);
+    }
     return true;
 }
 
@@ -181,26 +245,7 @@ scene::Fog fogWithAir(const World& world) {
 }
 
 void findFogLightInClouds(World& world) {
-    const bool many = world.visible().size() > 1;
-    glm::dvec3 lower(std::numeric_limits<double>::infinity()), upper = -lower;
-    for (std::size_t i = 0; i < world.instances.size(); ++i) {
-        const cloud::Instance& instance = world.instances[i];
-        if (instance.asset == nullptr) continue;
-        light::InstanceLight& light = world.light[i];
-        const photon::Box box{instance.origin + instance.offset, instance.voxelToMetres,
-                              glm::dvec3(instance.asset->size)};
-        light.air = photon::makeFogAirLight(fogSurroundings(world), !many, world.lights.direct(), box);
-        light.sun = world.lights.direct();
-        light.sun.irradiance *= light.air->mostSun;
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec3 at(corner & 1, (corner >> 1) & 1, corner >> 2);
-            const glm::dvec3 point = box.origin + box.edges * (at * box.size);
-            lower = glm::min(lower, point), upper = glm::max(upper, point);
-        }
-    }
-    if (!many) return;
-    const photon::Box all{lower, glm::dmat3(1.0), upper - lower};
-    world.air = photon::makeFogAirLight(fogSurroundings(world), true, world.lights.direct(), all);
+    put(world, lightInClouds(fogSurroundings(world), world.lights.direct(), boxesOf(world)));
 }
 
 fog::ShadowCasters shadowCasters(const World& world, const Camera& camera) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fog/lit/lit_fog.h"
@@ -17,10 +18,18 @@ void updateFogLight(World& world);
 /// Lets a world begin with the light of fog of another one, which serves where sun and media are the same.
 void shareFogLight(World& world, const World& other);
 
+/// Light of fog in clouds, which lie in these boxes.
+struct FogInClouds {
+    std::vector<std::optional<photon::Box>> boxes;  ///< of all instances; none where there is nothing
+    std::vector<std::optional<photon::AirLight>> each;
+    std::optional<photon::AirLight> all;  ///< where there are several
+};
+
 struct NewFog {
     std::vector<scene::FogMedium> media;
     std::shared_ptr<const fog_light::AirOverFog> air{};  ///< null where the fog is in none
     std::shared_ptr<const fog_light::FogLight> light{};  ///< null where it is not lit (World::fogLight)
+    std::optional<FogInClouds> inClouds{};
 };
 
 /// Finds other fog for a world that has fog, or refuses it where what the world was made for would not do: a scene
@@ -29,7 +38,7 @@ FogMaker fogMaker(World& world);
 /// The fog of a world as it is now.
 NewFog fogOf(const World& world);
 /// Puts other fog in the place of a world's. Where sun or clouds have changed since it was made, its light is made
-/// anew, which takes as long. Returns whether anything changed.
+/// anew, which takes as long; where clouds have moved, that in them. Returns whether anything changed.
 bool setFog(World& world, const NewFog& fog);
 
 /// Light in and above the fog of a world that has light of fog.
@@ -40,6 +49,9 @@ scene::Fog fogWithAir(const World& world);
 
 /// Light of fog, sun and sky in each instance and in all together.
 void findFogLightInClouds(World& world);
+
+/// Finds the light of the sky that goes to and fro along rays, from the light in all instances.
+void findSkyReturn(World& world);
 
 /// The clouds that throw shadows into fog, for a picture of a camera. Their shadow volumes are up to date.
 fog::ShadowCasters shadowCasters(const World& world, const Camera& camera);

@@ -114,6 +114,10 @@ void findLightOfClouds(World& world) {
 
 void findReachingLight(World& world) {
     findLightOfClouds(world);
+    findSkyReturn(world);
+}
+
+void findSkyReturn(World& world) {
     world.skyReturn = skyReturnIn(world);
 }
 

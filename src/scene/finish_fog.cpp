@@ -58,7 +58,7 @@ void requireVisibility(const char* key, const Entry& entry) {
 }
 
 /// Splits an extinction into scattering and absorption.
-void split(const glm::dvec3& extinction, const glm::dvec3& albedo, FogMedium& medium) {
+void split(glm::dvec3 extinction, const glm::dvec3& albedo, FogMedium& medium) {
     medium.scattering = albedo * extinction;
     medium.absorption = (1.0 - albedo) * extinction;
 }

@@ -295,6 +295,8 @@ class Slider(FogTest):
                 for name, list_ in (("without", alone), (f"{len(sent)} changes, {made} made", sliding)):
                     print(f"{scene} {width}x{height} {name}: {len(list_)} intervals, median {1e3 * numpy.median(list_):.0f} ms, "
                           f"99 % {1e3 * numpy.quantile(list_, 0.99):.0f} ms, longest {1e3 * max(list_):.0f} ms")
+                shown = [event["shown_milliseconds"] for event in self.server.log if event["event"] == "fog_shown"]
+                print(f"  the render thread took {numpy.median(shown):.0f} ms (median), {max(shown):.0f} ms at most to show it")
                 self.assertGreater(made, 0)
                 self.assertLess(numpy.median(sliding), max(0.2, 4 * numpy.median(alone)))  # also on a busy machine
                 self.assertLess(max(sliding), max(1.5, 6 * max(alone)))
