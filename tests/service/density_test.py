@@ -436,15 +436,23 @@ class Faults(DensityTest):
         self.one.load_scene("moving.toml")  # for the other tests
 
     def test_memory_stays(self):
-        """A scene has 40 MB. The driver and the allocator of each thread fill up for 30 swaps (130 MB in all, measured)."""
-        warm, more = 32, 24
-        for swap in range(warm + more):
-            if swap == warm:
-                before = self.server.memory()
+        """A scene has 40 MB. The driver and the allocator of each thread fill up for 30 swaps and, on a busy machine, for some
+        more (130 MB in all, measured): in one of a few rounds of swaps memory stays, where each that loses 2 MB a swap fails."""
+        warm, rounds, swaps = 32, 4, 20
+        self.swap(warm)
+        for _ in range(rounds):
+            before = self.server.memory()
+            self.swap(swaps)
+            grown = self.server.memory() - before
+            if grown < 30e6:
+                break
+        self.assertLess(grown, 30e6)
+        self.one.load_scene("moving.toml")
+
+    def swap(self, count):
+        for swap in range(count):
             self.one.change(frame=swap % FRAMES)
             self.one.frame()
-        self.assertLess(self.server.memory() - before, 30e6)
-        self.one.load_scene("moving.toml")
 
 
 class Gaps(DensityTest):
