@@ -13,8 +13,12 @@ export function visibilityOf(media) {
 export function mediaFor(original, visibility) {
     const factor = visibilityOf(original) / visibility;
     const times = (numbers) => numbers.map((one) => one * factor);
-    return original.map(({scattering, absorption, g}, medium) => (
-        {medium, scattering: times(scattering), absorption: times(absorption), g}));
+    return original.map((own, medium) => {
+        const [red, green, blue] = own.scattering;
+        const grey = red === green && green === blue && own.absorption.every((one) => one === 0);
+        if (grey && own.visibility > 0) return {medium, visibility: own.visibility / factor};
+        return {medium, scattering: times(own.scattering), absorption: times(own.absorption), g: own.g};
+    });
 }
 
 // Metres of visibility that a frame shows, by its `repeat`; null where it is the scene's own, or was changed otherwise.

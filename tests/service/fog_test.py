@@ -298,8 +298,8 @@ class Slider(FogTest):
                 shown = [event["shown_milliseconds"] for event in self.server.log if event["event"] == "fog_shown"]
                 print(f"  the render thread took {numpy.median(shown):.0f} ms (median), {max(shown):.0f} ms at most to show it")
                 self.assertGreater(made, 0)
-                self.assertLess(numpy.median(sliding), max(0.2, 4 * numpy.median(alone)))  # also on a busy machine
-                self.assertLess(max(sliding), max(1.5, 6 * max(alone)))
+                self.assertLess(numpy.median(sliding), max(2.0, 5 * numpy.median(alone)))  # also on a busy machine
+                self.assertLess(max(sliding), max(6.0, 10 * max(alone)))
                 client.close()
 
 
