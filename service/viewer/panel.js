@@ -11,7 +11,7 @@ const element = (id) => document.getElementById(id);
 
 function distance(metres) {
     if (isClear(metres)) return "clear";
-    return metres < 1000 ? `${Math.round(metres)} m` : `${(metres / 1000).toFixed(metres < 1e4 ? 1 : 0)} km`;
+    return metres < 999.5 ? `${Math.round(metres)} m` : `${(metres / 1000).toFixed(metres < 1e4 ? 1 : 0)} km`;
 }
 
 // Metres of the slider, without figures that nobody sees.
@@ -114,7 +114,9 @@ export class Panel {
         const {scene, hasFog} = this.viewing;
         const own = hasFog ? visibilityOf(scene.original.media) : clearAir; // can be reached again
         const [low, high] = visibilities;
-        this.sliders.range("fog", Math.log10(Math.min(low, own)), Math.log10(Math.max(high, own)));
+        const steps = 1000; // of the slider in a factor of ten: its ends lie on them, so that round numbers do
+        this.sliders.range("fog", Math.floor(steps * Math.log10(Math.min(low, own))) / steps,
+            Math.ceil(steps * Math.log10(Math.max(high, own))) / steps);
         this.sliders.set("fog", Math.log10(hasFog ? visibility : clearAir));
     }
 

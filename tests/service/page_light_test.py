@@ -159,8 +159,9 @@ class Fog(PageTest):
         browser.set("fog", 3)
         browser.wait(lambda: browser.link().get("fog") == "1000" and self.shown() == "1.0 km")
         browser.wait(lambda: browser.figures()["light"].startswith("the scene’s"))  # it is loaded with that
-        browser.set("fog", 2)
-        browser.wait(lambda: browser.figures()["light"] == "own")
+        before = browser.picture()
+        browser.set("fog", 2)  # in place: the scene with that fog is this viewer's
+        browser.wait(lambda: browser.link().get("fog") == "100" and browser.picture() != before)
         self.open(browser.run("return location.hash"))
         browser.wait(lambda: browser.link().get("fog") == "100" and self.shown() == "100 m")
         browser.click("#reset")

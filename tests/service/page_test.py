@@ -251,7 +251,7 @@ Promise.all([import("/viewing.js"), import("/link.js")]).then(([{Viewing}, {fres
     const nothing = () => {};
     const viewing = new Viewing("", freshWishes(), {notices, loading: nothing, loaded: nothing, framed: nothing, view: nothing});
     viewing.welcome = {scene: "a.toml", quality: ""};
-    const original = {sun: {direction_to: [0, 1, 0]}, clouds: []};
+    const original = {sun: {direction_to: [0, 1, 0]}, clouds: [], media: []};
     const asked = [];
     viewing.connection = {stream: nothing, ask: async (name, json) => {
         asked.push(`${name} ${json.name}`);
