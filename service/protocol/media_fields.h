@@ -7,8 +7,8 @@
 
 namespace lumulus::service {
 
-/// Reads the changes of fog media that a request lists; none where it has no list. What values may be is for the keys of
-/// a scene to say. Errors: RequestError `bad_request`.
+/// Reads the changes of fog media that a request lists; none where it has no list. What values may be is for the keys
+/// of a scene to say. Errors: RequestError `bad_request`.
 std::vector<MediumEdit> readMedia(JsonFields& fields);
 
 }  // namespace lumulus::service

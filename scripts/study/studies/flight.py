@@ -22,11 +22,11 @@ PARTS = 4  # along each side
 
 
 def path_text(frames):
-    """Rows of a camera that comes from 4 km before the first cloud, climbs, and leaves over the field."""
+    """Rows of a camera that comes from 4 km before the first cloud, climbs above it, and leaves over the field."""
     rows = ["frame,x,y,z,target_x,target_y,target_z"]
     for i in range(frames):
         along = i / max(1, frames - 1)
-        height, z = 300.0 + 1900.0 * along ** 1.5, 2000.0 - 8000.0 * along
+        height, z = 300.0 + 2600.0 * along ** 0.8, 2000.0 - 8000.0 * along
         rows.append(f"{i + 1},{200.0 * math.sin(3.0 * along):.3f},{height:.3f},{z:.3f},0.0,{height - 250.0 * along:.3f},"
                     f"{z - 2000.0:.3f}")
     return "\n".join(rows) + "\n"
