@@ -6,7 +6,7 @@
 #include "shared/draw.h"
 
 uint tileDetailAt(ivec2 pixel) {
-    const ivec2 tile = pixel / TILE_EDGE;
+    const ivec2 tile = min(pixel, params.view.size - 1) / TILE_EDGE;  // points may lie beyond the picture
     return tileDetail[tile.y * params.tilesAcross + tile.x];
 }
 
