@@ -11,7 +11,7 @@ target=${1:-} seconds=${2:-600} more=${3:-}
 longest=4096 headers=()
 case $target in
 chunks)
-    sources=(service/protocol/{cloud_edit_fields,frame_fields,json_fields,media_fields,message,query_fields,requests}.cpp
+    sources=(service/protocol/{cloud_edit_fields,density_fields,frame_fields,json_fields,media_fields,message,query_fields,requests}.cpp
              service/render/upload_store.cpp service/values/sha256.cpp)
     libraries=(-lcrypto) longest=384
     ;;
@@ -28,7 +28,7 @@ scene)
     libraries=(-ltbb)
     ;;
 session)
-    sources=(service/protocol/{cloud_edit_fields,error_reply,frame_fields,json_fields,media_fields,message,query_fields}.cpp
+    sources=(service/protocol/{cloud_edit_fields,density_fields,error_reply,frame_fields,json_fields,media_fields,message,query_fields}.cpp
              service/protocol/{requests,session}.cpp service/values/sha256.cpp)
     libraries=(-lcrypto)
     ;;
