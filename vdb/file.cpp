@@ -8,9 +8,9 @@
 
 #include "base/error.h"
 #include "base/file_kind.h"
+#include "base/text.h"
 #include "vdb/chunks.h"
 #include "vdb/grid_archive.h"
-#include "vdb/header.h"
 #include "vdb/nano.h"
 #include "vdb/tree_field.h"
 
@@ -46,17 +46,20 @@ std::string checkedStart(const fs::path& path) {
     return fileStart(path);
 }
 
-/// Refuses a damaged OpenVDB file, or one that is too new, before OpenVDB reads it.
-void checkHeader(const fs::path& path, std::string_view start) {
+/// Refuses an OpenVDB file that is too new or too old.
+void checkFormat(const fs::path& path, std::string_view start) {
     constexpr std::size_t versionAt = 8;
     std::uint32_t version = 0;
-    if (start.size() >= versionAt + sizeof(version)) std::memcpy(&version, &start[versionAt], sizeof(version));
+    if (start.size() < versionAt + sizeof(version))
+        refuse(path, "the file is truncated: it ends in its first bytes", "copy or write it again");
+    std::memcpy(&version, &start[versionAt], sizeof(version));
     if (version > openvdb::OPENVDB_FILE_VERSION) {
         refuse(path, "the file is of a newer OpenVDB (format " + std::to_string(version) + ")",
                "save it as format " + std::to_string(openvdb::OPENVDB_FILE_VERSION) + " or older");
     }
-    if (!headerLengthsFit(path)) {
-        refuse(path, "the file is truncated or damaged: its header leads past its end", "copy or write it again");
+    if (version < openvdb::OPENVDB_FILE_VERSION_GRID_INSTANCING) {
+        refuse(path, "the file is of an OpenVDB of 2012 (format " + std::to_string(version) + ")",
+               "open and save it with a newer program");
     }
 }
 
@@ -72,7 +75,7 @@ void checkHeader(const fs::path& path, std::string_view start) {
             refuse(path, "the file asks for more memory than there is", "it is damaged, or too large for this machine");
     } catch (const std::exception& error) {
         if (!ended)
-            refuse(path, std::string("the file is damaged or of an unknown kind: ") + error.what(), "write it again");
+            refuse(path, "the file is damaged or of an unknown kind: " + oneLine(error.what()), "write it again");
     } catch (...) {
         refuse(path, "the file is damaged", "write it again");
     }
@@ -106,7 +109,7 @@ GridFile::GridFile(const fs::path& path, const ReadLimits& limits) : path_(path)
             refuse(path, "the file is truncated: it ends in its first bytes", "copy or write it again");
         refuseForeign(path, start);
     }
-    checkHeader(path, start);
+    checkFormat(path, start);
     archive_ = std::make_unique<GridArchive>(path, limits);
     readStep(path, *archive_, [&] { archive_->readHeads(); });
     grids_ = archive_->grids();

@@ -2,15 +2,11 @@
 
 #include <stdexcept>
 
+#include "vdb/read_topology.h"
 #include "vdb/tree_field.h"
 
 namespace lumulus::vdb {
 namespace {
-
-/// Whether transforms stand before trees, as in all files since 2013.
-bool isRecent(std::istream& in) {
-    return openvdb::io::getFormatVersion(in) >= openvdb::OPENVDB_FILE_VERSION_GRID_INSTANCING;
-}
 
 /// Memory that a grid of scalars takes besides the nodes of a tree of floats: its parts in a list, and doubles.
 std::uint64_t bytesBeside(const openvdb::GridBase& grid) {
@@ -23,7 +19,7 @@ std::uint64_t bytesBeside(const openvdb::GridBase& grid) {
 }  // namespace
 
 GridArchive::GridArchive(const std::filesystem::path& path, const ReadLimits& limits)
-    : file_(path, limits), in_(&file_) {}
+    : file_(path, limits), in_(&file_), check_(path) {}
 
 void GridArchive::readHeads() {
     // a stream that throws notices the end of a truncated file
@@ -35,9 +31,11 @@ void GridArchive::readHeads() {
     setFormatVersion(in_);
     setLibraryVersion(in_);
     setDataCompression(in_);
+    check_.metadata(in_.tellg());
     openvdb::MetaMap().readMeta(in_);
     const std::int32_t count = readGridCount(in_);
     for (std::int32_t i = 0; i < count; ++i) {
+        check_.descriptor(in_.tellg());
         openvdb::io::GridDescriptor& descriptor = descriptors_.emplace_back();
         grids_.push_back(descriptor.read(in_));
         isRead_.push_back(false);
@@ -47,7 +45,8 @@ void GridArchive::readHeads() {
         if (inputHasGridOffsets() || count == 1) {
             constexpr std::uint64_t bytesOfHead = 4096;
             file_.foresee(bytesOfHead);
-            readHead(index);
+            descriptor.seekToGrid(in_);
+            readHead(*grids_[index]);
             if (inputHasGridOffsets()) descriptor.seekToEnd(in_);
         } else {
             readTree(index);
@@ -57,51 +56,40 @@ void GridArchive::readHeads() {
         for (std::size_t i = 0; i < grids_.size(); ++i) read(i);
 }
 
-/// Reads what stands before the tree of a grid.
-void GridArchive::readHead(std::size_t index) {
-    openvdb::GridBase& grid = *grids_[index];
-    descriptors_[index].seekToGrid(in_);
+/// Reads what stands before the tree of a grid, from where the stream stands.
+void GridArchive::readHead(openvdb::GridBase& grid) {
     readGridCompression(in_);
+    check_.metadata(in_.tellg());
     grid.readMeta(in_);
-    if (isRecent(in_)) grid.readTransform(in_);
+    grid.removeMeta(openvdb::GridBase::META_FILE_DELAYED_LOAD);
+    check_.text(in_.tellg());  // the type of the transform
+    grid.readTransform(in_);
 }
 
 /// Reads a grid from where the stream stands.
 void GridArchive::readTree(std::size_t index) {
-    const openvdb::GridBase::Ptr& grid = grids_[index];
+    openvdb::GridBase& grid = *grids_[index];
     isRead_[index] = true;
-    if (!isRecent(in_) || !isScalar(*grid)) {
-        file_.countMasks(true);  // those of values too, which are the same again
-        readGrid(grid, descriptors_[index], in_);
-        file_.countMasks(false);
-        return;
-    }
-    readGridCompression(in_);
-    grid->readMeta(in_);
-    grid->removeMeta(openvdb::GridBase::META_FILE_DELAYED_LOAD);
-    grid->readTransform(in_);
+    readHead(grid);
     if (descriptors_[index].isInstance()) return;
     file_.countMasks(true);
-    grid->readTopology(in_);
+    readTopology(grid, in_);
+    file_.countMasks(!isScalar(grid));  // masks of values are the same again: values of vectors are larger
+    if (isScalar(grid)) file_.foresee(bytesBeside(grid));
+    grid.readBuffers(in_);
     file_.countMasks(false);
-    file_.foresee(bytesBeside(*grid));
-    grid->readBuffers(in_);
 }
 
 bool GridArchive::hasStream(std::size_t index) {
-    return !isRead_[index] && !descriptors_[index].isInstance() && grids_[index]->isType<openvdb::FloatGrid>() &&
-           openvdb::io::getFormatVersion(in_) >= openvdb::OPENVDB_FILE_VERSION_GRID_INSTANCING;
+    return !isRead_[index] && !descriptors_[index].isInstance() && grids_[index]->isType<openvdb::FloatGrid>();
 }
 
 openvdb::FloatGrid::Ptr GridArchive::readStructure(std::size_t index) {
     openvdb::GridBase& grid = *grids_[index];
     descriptors_[index].seekToGrid(in_);
-    readGridCompression(in_);
-    grid.readMeta(in_);
-    grid.removeMeta(openvdb::GridBase::META_FILE_DELAYED_LOAD);
-    grid.readTransform(in_);
+    readHead(grid);
     file_.countMasks(true, MeteredFile::Leaves::withoutValues);
-    grid.readTopology(in_);
+    readTopology(grid, in_);
     file_.countMasks(false);
     isRead_[index] = true;  // as far as it will be
     return openvdb::gridPtrCast<openvdb::FloatGrid>(grids_[index]);

@@ -9,6 +9,7 @@
 #include <istream>
 #include <vector>
 
+#include "vdb/header.h"
 #include "vdb/metered_file.h"
 
 /// Reading single grids of an OpenVDB file (inside vdb/ only: the header costs seconds).
@@ -45,12 +46,13 @@ class GridArchive : private openvdb::io::Archive {
     void rethrow() const { file_.rethrow(); }
 
   private:
-    void readHead(std::size_t index);
+    void readHead(openvdb::GridBase& grid);
     void readTree(std::size_t index);
 
     MeteredFile file_;
     openvdb::SharedPtr<openvdb::io::StreamMetadata> metadata_;  // the stream points to it
     std::istream in_;
+    HeadCheck check_;
     std::vector<openvdb::io::GridDescriptor> descriptors_;
     openvdb::GridPtrVec grids_;
     std::vector<bool> isRead_;

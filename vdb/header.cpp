@@ -7,6 +7,8 @@
 #include <fstream>
 #include <string>
 
+#include "base/error.h"
+
 namespace lumulus::vdb {
 namespace {
 
@@ -20,11 +22,10 @@ std::uint32_t fixedBytes(const std::string& type) {
 /// The type of metadata that has masks and sizes of leaves.
 constexpr const char* kLeavesForLater = "__delayedload";
 
-/// Walks over a file and notes if a length led past the end of the file.
+/// Walks over a file from a position on and notes if a length led past the end of the file.
 class Walk {
   public:
-    explicit Walk(const std::filesystem::path& path)
-        : in_(path, std::ios::binary), size_(static_cast<std::int64_t>(std::filesystem::file_size(path))) {}
+    Walk(std::ifstream& in, std::int64_t size, std::int64_t position) : in_(in), size_(size), position_(position) {}
 
     bool within() const { return within_; }
 
@@ -63,8 +64,8 @@ class Walk {
 
     /// Walks over name, type and value of each entry.
     void metadata() {
-        const auto entries = number<std::int32_t>();
-        for (std::int32_t i = 0; i < entries && within_; ++i) {
+        const auto entries = number<std::uint32_t>();
+        for (std::uint32_t i = 0; i < entries && within_; ++i) {
             sized();
             const std::string type = sized();
             const std::uint32_t fixed = fixedBytes(type);
@@ -109,36 +110,41 @@ class Walk {
         bytes(stored);
     }
 
-    std::ifstream in_;
-    std::int64_t size_ = 0;
-    std::int64_t position_ = 0;
+    std::ifstream& in_;
+    std::int64_t size_;
+    std::int64_t position_;
     bool within_ = true;
 };
 
 }  // namespace
 
-// The layout is that of OpenVDB 10's io/Archive.cc and io/GridDescriptor.cc.
-bool headerLengthsFit(const std::filesystem::path& path) {
-    constexpr std::uint32_t oldestFormat = 222;
-    Walk walk(path);
-    walk.bytes(8);  // the magic number
-    if (walk.number<std::uint32_t>() < oldestFormat) return walk.within();
-    walk.bytes(8);  // the library's version
-    const bool seekable = walk.number<std::uint8_t>() != 0;
-    walk.bytes(36);  // a UUID in text
-    walk.metadata();
-    const auto grids = walk.number<std::int32_t>();
-    for (std::int32_t i = 0; i < grids && walk.within(); ++i) {
+HeadCheck::HeadCheck(const std::filesystem::path& path) : path_(path), in_(path, std::ios::binary) {
+    size_ = static_cast<std::int64_t>(std::filesystem::file_size(path));
+}
+
+template <typename Steps>
+void HeadCheck::walk(std::int64_t position, const Steps& steps) {
+    in_.clear();
+    Walk walk(in_, size_, position);
+    steps(walk);
+    if (!walk.within())
+        throw InputError("the file is truncated or damaged: its header leads past its end", path_.string(),
+                         "copy or write it again");
+}
+
+void HeadCheck::metadata(std::int64_t position) {
+    walk(position, [](Walk& walk) { walk.metadata(); });
+}
+
+// The layout is that of OpenVDB 10's io/GridDescriptor.cc.
+void HeadCheck::descriptor(std::int64_t position) {
+    walk(position, [](Walk& walk) {
         for (int name = 0; name < 3; ++name) walk.sized();  // of the grid, its type and the grid whose tree it shares
-        walk.bytes(16);                                     // where the grid and its values begin
-        const auto end = walk.number<std::int64_t>();
-        walk.bytes(4);  // flags of compression
-        walk.metadata();
-        walk.sized();  // the type of the transform
-        if (!seekable) break;
-        walk.moveTo(end);
-    }
-    return walk.within();
+    });
+}
+
+void HeadCheck::text(std::int64_t position) {
+    walk(position, [](Walk& walk) { walk.sized(); });
 }
 
 }  // namespace lumulus::vdb

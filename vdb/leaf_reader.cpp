@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace lumulus::vdb {
 
@@ -44,7 +45,7 @@ void LeafReader::read(std::uint64_t place, LeafTable::Values values) {
         leaf.readBuffers(stream.in, half_);
         leafValues(leaf, values);
     } catch (const std::exception& error) {
-        throw InputError(std::string("the file cannot be read again: ") + error.what(), path_.string(),
+        throw InputError("the file cannot be read again: " + oneLine(error.what()), path_.string(),
                          "leave the file as it is while the scene loads");
     }
 }

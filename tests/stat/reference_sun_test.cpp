@@ -78,7 +78,7 @@ TEST_P(SunThroughABall, AgreesWithEscapesAlone) {
     const MajorantGrid majorants(medium, Majorant::local);
     Random random(21, 0, 0);
     RunningMean weighted, chance;
-    for (int i = 0; i < 30'000; ++i) weighted.add(tracer.trace(rayBeside(2.0), random).radiance.y);
+    for (int i = 0; i < 100'000; ++i) weighted.add(tracer.trace(rayBeside(2.0), random).radiance.y);
     for (int i = 0; i < 600'000; ++i) chance.add(byChance(scene, medium, majorants, rayBeside(2.0), random));
     EXPECT_NEAR(weighted.mean(), chance.mean(), 4.0 * std::hypot(weighted.standardError(), chance.standardError()));
     EXPECT_LT(chance.standardError(), 0.02 * chance.mean());
@@ -87,7 +87,8 @@ TEST_P(SunThroughABall, AgreesWithEscapesAlone) {
 
 INSTANTIATE_TEST_SUITE_P(Lobes, SunThroughABall,
                          testing::Values(Case{"WideLobeWideSun", 0.6, 30.0}, Case{"NarrowLobeWideSun", 0.99, 10.0},
-                                         Case{"LobeAsWideAsTheSun", 0.95, 6.0}, Case{"WideLobeNarrowSun", 0.85, 6.0}),
+                                         Case{"LobeAsWideAsTheSun", 0.95, 6.0}, Case{"WideLobeNarrowSun", 0.85, 6.0},
+                                         Case{"BackwardLobeWideSun", -0.95, 20.0}),
                          [](const testing::TestParamInfo<Case>& row) { return std::string(row.param.name); });
 
 scene::Phase phaseOf(scene::PhaseModel model, double g, double diameter) {
@@ -116,6 +117,21 @@ TEST(Aureole, HasThePeakOfThePhaseFunction) {
     }
     EXPECT_FALSE(Aureole::of(PhaseFunction(phaseOf(scene::PhaseModel::henyeyGreenstein, 0.85, 20.0)), sun, 0.0));
     EXPECT_FALSE(Aureole::of(PhaseFunction(phaseOf(scene::PhaseModel::henyeyGreenstein, 0.99, 20.0)), sun, 0.5));
+}
+
+/// Where light goes to and fro there are two lobes, of half the peak each.
+TEST(Aureole, HasALobeOnEitherSideWhereLightReturns) {
+    const dvec3 sun = glm::normalize(dvec3(1.0, 2.0, -0.5));
+    const PhaseFunction function(phaseOf(scene::PhaseModel::henyeyGreenstein, -0.95, 20.0));
+    const std::optional<Aureole> aureole = Aureole::of(function, sun, 0.0);
+    ASSERT_TRUE(aureole);
+    EXPECT_NEAR(aureole->density(sun) / function.evaluate(2.0), 0.5, 1e-4);
+    EXPECT_NEAR(aureole->density(-sun), aureole->density(sun), 1e-9);
+    Random random(23, 0, 0);
+    constexpr int samples = 100'000;
+    int near = 0;
+    for (int i = 0; i < samples; ++i) near += glm::dot(aureole->sample(random), sun) > 0.0 ? 1 : 0;
+    EXPECT_NEAR(near, samples / 2, 4.0 * std::sqrt(samples / 4.0));
 }
 
 /// Branches are drawn as densely as `density` says, about the sun: a χ² test over 30 bins of 1 − cos.

@@ -1,8 +1,12 @@
 // What the loader says to files that it cannot use. None of them may crash it.
 #include <gmock/gmock.h>
 
+#include <malloc.h>
+
 #include <cstring>
 #include <limits>
+
+#include <openvdb/tools/ChangeBackground.h>
 
 #include "unit/vdb_grids.h"
 #include "vdb/describe.h"
@@ -14,6 +18,7 @@ namespace {
 using Refusal = GridFiles;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST_F(Refusal, NoSuchFile) {
     EXPECT_THAT(refusal(file("absent.vdb")), HasSubstr("no such file"));
@@ -48,6 +53,13 @@ TEST_F(Refusal, NewerFormat) {
     EXPECT_THAT(refusal(file()), HasSubstr("newer OpenVDB"));
 }
 
+TEST_F(Refusal, FormatOf2012) {
+    std::string bytes = readAll(save({makeBlob({0, 0, 0})}));
+    bytes[8] = static_cast<char>(215);
+    writeAll(file(), bytes);
+    EXPECT_THAT(refusal(file()), HasSubstr("OpenVDB of 2012 (format 215)"));
+}
+
 /// The places to damage: every byte of the head and of the tail; the node masks between are all alike, each 37th does.
 std::vector<std::size_t> damagePlaces(std::size_t bytes) {
     constexpr std::size_t closely = 500;
@@ -65,6 +77,45 @@ TEST_F(Refusal, TruncatedAnywhere) {
     }
     writeAll(file(), whole);
     EXPECT_EQ(refusal(file()), "");
+}
+
+/// Nodes that have not been read hold the background, which must not be taken for their children.
+TEST_F(Refusal, TruncatedAnywhereWithABackground) {
+    const auto half = makeBlob({3, 3, 3}, 1);
+    half->setSaveFloatAsHalf(true);
+    for (const auto& grid : {makeBlob({3, 3, 3}, 1), half}) {
+        openvdb::tools::changeBackground(grid->tree(), 0.25F);
+        const std::string whole = readAll(save({grid}));
+        for (const std::size_t length : damagePlaces(whole.size())) {
+            writeAll(file(), whole.substr(0, length));
+            ASSERT_THAT(refusal(file()), HasSubstr("truncated")) << length << " of " << whole.size();
+        }
+    }
+}
+
+/// OpenVDB 10 itself loses the node below the root, 0.3 MB, wherever reading ends in it.
+TEST_F(Refusal, TruncatedFilesLeaveNothingInMemory) {
+    const std::string whole = readAll(save({makeBlob({3, 3, 3}, 1)}));
+    const auto readOften = [&](int times) {
+        for (int i = 0; i < times; ++i) {
+            writeAll(file(), whole.substr(0, whole.size() * (50 + static_cast<std::size_t>(i % 40)) / 100));
+            ASSERT_THAT(refusal(file()), HasSubstr("truncated"));
+        }
+    };
+    readOften(40);
+    const std::size_t before = mallinfo2().uordblks;
+    readOften(80);
+    EXPECT_LT(mallinfo2().uordblks, before + (1U << 20U));
+}
+
+/// OpenVDB's message quotes the name of the transform as it stands in the file.
+TEST_F(Refusal, OneLineWhateverIsQuoted) {
+    std::string bytes = readAll(save({makeBlob({3, 3, 3}, 1)}));
+    const std::size_t name = bytes.find("UniformScaleMap");
+    ASSERT_NE(name, std::string::npos);
+    bytes[name + 3] = '\n';
+    writeAll(file(), bytes);
+    EXPECT_THAT(refusal(file()), AllOf(HasSubstr("Uni ormScaleMap"), Not(HasSubstr("\n"))));
 }
 
 TEST_F(Refusal, DamageNeverCrashes) {
@@ -120,6 +171,13 @@ TEST_F(Refusal, MetadataThatOpenVdbReadsByItsOwnSize) {
     EXPECT_EQ(refusal(file()), "");
     std::string other = whole;
     other.at(other.find("vec3i", other.find("place")) + 3) = '4';
+    writeAll(file(), other);
+    EXPECT_THAT(refusal(file()), HasSubstr("truncated or damaged"));
+
+    other = whole;
+    constexpr std::size_t countAt = 57;
+    constexpr std::uint32_t many = 0xDBDBDB00U;  // beyond 2^31
+    std::memcpy(&other.at(countAt), &many, sizeof(many));
     writeAll(file(), other);
     EXPECT_THAT(refusal(file()), HasSubstr("truncated or damaged"));
 
