@@ -26,16 +26,18 @@ double widthOf(double peak) {
 }  // namespace
 
 std::optional<Aureole> Aureole::of(const PhaseFunction& phase, const glm::dvec3& sunDirection, double angularRadius) {
-    const double width = std::max({widthOf(phase.evaluate(0.0)), angularRadius, narrowest});
+    const double width = std::max({widthOf(phase.peak()), angularRadius, narrowest});
     if (width > widest) return std::nullopt;
     scene::Phase lobe;
     lobe.model = scene::PhaseModel::henyeyGreenstein;
     lobe.g = 1.0 - width;
-    return Aureole(PhaseFunction(lobe), sunDirection);
+    return Aureole(PhaseFunction(lobe), sunDirection, phase.returns());
 }
 
 double Aureole::density(const glm::dvec3& direction) const {
-    return lobe_.evaluate(oneMinusCosBetween(sunDirection_, direction));
+    const double about = lobe_.evaluate(oneMinusCosBetween(sunDirection_, direction));
+    if (!opposite_) return about;
+    return 0.5 * (about + lobe_.evaluate(oneMinusCosBetween(-sunDirection_, direction)));
 }
 
 double Aureole::importance(const glm::dvec3& direction) const {
@@ -43,7 +45,8 @@ double Aureole::importance(const glm::dvec3& direction) const {
 }
 
 glm::dvec3 Aureole::sample(Random& random) const {
-    return turned(sunDirection_, lobe_.sample(random), random);
+    const bool away = opposite_ && random.uniform() < 0.5;
+    return turned(away ? -sunDirection_ : sunDirection_, lobe_.sample(random), random);
 }
 
 }  // namespace lumulus::reference

@@ -11,7 +11,8 @@ namespace lumulus::reference {
 /// The bright sky around the sun, as it is seen from within a cloud with a narrow phase function. Paths rarely go there
 /// by chance but carry much light when they do, so a path sends a *branch* there at each scattering event. Its
 /// direction is drawn from a Henyey–Greenstein lobe about the sun with a peak as high as that of the phase function,
-/// but no narrower than the sun's disc.
+/// but no narrower than the sun's disc. Where the peak is backward, light goes to and fro along the sun's axis: half of
+/// the branches go to a lobe about the point opposite the sun.
 class Aureole {
   public:
     /// Makes an aureole, or nothing where the lobe is so wide that paths find the bright directions by themselves.
@@ -29,10 +30,12 @@ class Aureole {
     glm::dvec3 sample(Random& random) const;
 
   private:
-    Aureole(const PhaseFunction& lobe, const glm::dvec3& sunDirection) : lobe_(lobe), sunDirection_(sunDirection) {}
+    Aureole(const PhaseFunction& lobe, const glm::dvec3& sunDirection, bool opposite)
+        : lobe_(lobe), sunDirection_(sunDirection), opposite_(opposite) {}
 
     PhaseFunction lobe_;
     glm::dvec3 sunDirection_;
+    bool opposite_;  ///< there is a lobe about the point opposite the sun too
 };
 
 }  // namespace lumulus::reference

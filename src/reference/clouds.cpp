@@ -90,7 +90,7 @@ void Clouds::eachMet(const Ray& ray, double limit, Visit&& visit) const {
 }
 
 const PhaseFunction* Clouds::narrowestPhase() const {
-    const auto narrowest = std::ranges::max_element(phases_, {}, [](const auto& phase) { return phase.evaluate(0.0); });
+    const auto narrowest = std::ranges::max_element(phases_, {}, [](const auto& phase) { return phase.peak(); });
     return narrowest == phases_.end() ? nullptr : &*narrowest;
 }
 

@@ -152,6 +152,10 @@ double PhaseFunction::evaluate(double oneMinusCos) const {
            draineShare_ * draine(draineG_, draineAlpha_, oneMinusCos);
 }
 
+double PhaseFunction::peak() const {
+    return std::max(evaluate(0.0), evaluate(2.0));
+}
+
 double PhaseFunction::sample(Random& random) const {
     switch (model_) {
         case scene::PhaseModel::henyeyGreenstein:

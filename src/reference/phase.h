@@ -28,6 +28,11 @@ class PhaseFunction {
     /// Value of p [1/sr].
     double evaluate(double oneMinusCos) const;
 
+    /// The larger of p straight on and straight back [1/sr].
+    double peak() const;
+    /// Whether p straight back is larger than straight on.
+    bool returns() const { return evaluate(2.0) > evaluate(0.0); }
+
     /// Draws 1 − cos θ of a scattering event, in [0, 2].
     double sample(Random& random) const;
 
