@@ -1,5 +1,7 @@
 #include "render/world.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -156,6 +158,32 @@ class Maker {
     Before before_;
 };
 
+/// Light that goes to and fro along its line is not exact everywhere (docs/experiments/backward-peak.md).
+void warnOfBackwardPeaks(const scene::Scene& scene, WorldReport& report) {
+    constexpr double thick = 10.0;  // optical depths on average
+    for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
+        const scene::Cloud& cloud = scene.clouds[i];
+        if (cloud.phase.model != scene::PhaseModel::henyeyGreenstein || !(cloud.phase.g < -0.5)) continue;
+        const auto isOther = [&](const scene::Cloud& other) {
+            return !(other.phase == cloud.phase) || other.albedo != cloud.albedo;
+        };
+        // light that goes to and fro along a ray is known in one medium (photon/sky_return.h)
+        if (scene.sky.model != scene::SkyModel::constant && std::ranges::any_of(scene.clouds, isOther)) {
+            report.warnings.push_back(
+                "clouds that scatter backwards (phase.g below -0.5), beside others of another phase function or "
+                "albedo, may be 20 % too dark or too bright under an atmosphere or a map; lumulus reference is exact");
+            return;
+        }
+        if (scene.sun.irradiance != glm::dvec3(0.0) && report.clouds[i].meanThickness > thick) {
+            report.warnings.push_back(
+                fmt::format("cloud.{} scatters backwards (phase.g {:g}) and is thick: sunlight in it is some 10 % too "
+                            "bright, and up to half where the sun stands behind it; lumulus reference is exact",
+                            report.clouds[i].name, cloud.phase.g));
+            return;
+        }
+    }
+}
+
 CloudVolumes Maker::load() {
     CloudVolumes volumes = options_.read ? options_.read(scene_)
                                          : loadClouds(scene_, options_.report, options_.check, FieldStorage::asWanted);
@@ -165,18 +193,9 @@ CloudVolumes Maker::load() {
         if (noted != nullptr && *noted == cloud.phase) continue;  // the many clouds of a field have one
         noted = &cloud.phase;
         if (auto note = phase::normalisationNote(cloud.phase)) report_.warnings.push_back(std::move(*note));
-        const bool backward = cloud.phase.model == scene::PhaseModel::henyeyGreenstein && cloud.phase.g < -0.5;
-        const auto isOther = [&](const scene::Cloud& other) {
-            return !(other.phase == cloud.phase) || other.albedo != cloud.albedo;
-        };
-        // light that goes to and fro along a ray is known in one medium (photon/sky_return.h)
-        if (backward && scene_.sky.model != scene::SkyModel::constant && std::ranges::any_of(scene_.clouds, isOther))
-            report_.warnings.push_back(
-                "clouds that scatter backwards (phase.g below -0.5), beside others of another phase function or "
-                "albedo, "
-                "may be 20 % too dark or too bright under an atmosphere or a map; lumulus reference is exact");
     }
     report_.clouds = summarise(scene_, volumes);
+    warnOfBackwardPeaks(scene_, report_);
     if (options_.loaded) options_.loaded(report_.clouds, report_.warnings);
     std::vector<Bounds> bounds;
     std::unordered_map<const vdb::Volume*, std::pair<Bounds, vdb::Affine>> known;

@@ -63,6 +63,12 @@ class Input(CliTest):
                 self.assertRegex(said, r"^lumulus: warning: .*optical thickness.*cloud\.0\.density_scale")
                 self.assertEqual(attributes["grid"], "density")
 
+    def test_thick_clouds_that_scatter_backwards_are_warned_of(self):
+        scene = self.vdb_scene(self.fixtures / "ball.vdb", "density_scale = 4\nphase.g = -0.8")  # optical thickness 32
+        self.assertRegex(self.picture(scene)[2], r"^lumulus: warning: cloud\.0 scatters backwards \(phase\.g -0\.8\)")
+        for calm in ("cloud.0.phase.g=-0.4", "cloud.0.extinction=0.2", "sun.irradiance=0"):
+            self.assertEqual(self.picture(scene, "--set", calm)[2], "", calm)
+
     def test_negatives(self):
         _, _, said = self.picture(self.vdb_scene(self.fixtures / "small-negative.vdb"))
         self.assertRegex(said, r"^lumulus: warning: .* 1 negative voxel, the smallest -1e-07")
