@@ -18,6 +18,7 @@
 #include "cli/clouds_told.h"
 #include "cli/output.h"
 #include "cli/picture_files.h"
+#include "cli/render_error.h"
 #include "cli/render_frames.h"
 #include "cli/stats_json.h"
 #include "progressive/bias.h"
@@ -72,6 +73,8 @@ bool progressive(const RenderOptions& options) {
 void requireSomeOutput(const RenderOptions& options) {
     if (options.outputs.empty() && options.maps.out.empty())
         throw InputError("nothing is to be written", "-o", "give a picture, or a photon map by --map-out");
+    if (options.error.used() && options.outputs.empty())
+        throw InputError("there is no picture whose error could be measured", "--error", "give one by -o");
     if (progressive(options) && options.maps.used())
         throw InputError("photon maps in files have a number of generations that is known before",
                          options.seconds ? "--seconds" : "--target-error",
@@ -157,7 +160,9 @@ void runRender(const RenderOptions& options) {
     LightMaps maps(options.maps, scene);
 
     Steps steps(options.quiet);
+    ErrorOfPicture error(options.error, steps);
     RendererOptions how{options.device, options.validate, steps.reporter()};
+    how.read = error.reader();
     how.progressive = progressive(options);
     std::size_t told = 0;  // warnings
     how.loaded = [&](std::span<const CloudSummary> clouds, std::span<const std::string> warnings) {
@@ -178,6 +183,7 @@ void runRender(const RenderOptions& options) {
     const Statistics statistics = renderer.statistics();
     for (const std::string& warning : std::span(statistics.warnings).subspan(told)) logWarning(warning);
 
+    error.measure(image, scene, secondsSince(start));
     noteOrigin(image, scene, statistics);
 
     const Clock::time_point writing = Clock::now();
@@ -185,7 +191,8 @@ void runRender(const RenderOptions& options) {
     const double writeSeconds = secondsSince(writing);
     const double seconds = secondsSince(start);
     if (reached) tellReached(options, statistics, *reached, seconds);
-    writeStatistics(options.stats, statisticsJson(statistics, reached, writeSeconds, seconds));
+    error.tell(options.quiet);
+    writeStatistics(options.stats, statisticsJson(statistics, reached, writeSeconds, seconds, error.json()));
     tellDefaults(scene, options.quiet);
     requireNoMessages(options.validate, statistics);
 }
