@@ -156,7 +156,7 @@ const std::string nearer = "[animate]\n\"camera.position\" = [[0, [0, 300, 9000]
 
 /// Fields in bricks, of files and procedural ones, are prepared once where all of them stay.
 TEST_F(FrameRendererTest, FieldsInBricks) {
-    vdb::write(vdb::makeCloud({"cumulus", 20, 1}), folder / "v.vdb");
+    vdb::write(vdb::makeCloud({"cumulus", 24, 1}), folder / "v.vdb");
     const std::string file = "[[cloud]]\nvdb = \"v.vdb\"\n";
     const std::string way = R"("cloud.0.transform" = [[0, [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]],
                               [3, [[1, 0, 0, 300], [0, 1, 0, 0], [0, 0, 1, 0]]]])";
@@ -173,9 +173,9 @@ TEST_F(FrameRendererTest, FieldsInBricks) {
 /// All fields in bricks are prepared anew where one of them changes, and the pictures are right where one is asked for
 /// in more detail.
 TEST_F(FrameRendererTest, FieldsInBricksThatChange) {
-    vdb::write(vdb::makeCloud({"cumulus", 20, 1}), folder / "v.vdb");
+    vdb::write(vdb::makeCloud({"cumulus", 24, 1}), folder / "v.vdb");
     for (int number = 0; number < count; ++number)
-        vdb::write(vdb::makeCloud({"cumulus", 20, static_cast<std::uint64_t>(number / 2) + 1}),
+        vdb::write(vdb::makeCloud({"cumulus", 24, static_cast<std::uint64_t>(number / 2) + 1}),
                    folder / ("v" + std::to_string(number) + ".vdb"));
     all(bricks + "[[cloud]]\nvdb = \"v.vdb\"\n" + still + nearer);
     const std::vector<Shown> changing = all(bricks + "[[cloud]]\nvdb = \"v#.vdb\"\n" + still + nearer);
