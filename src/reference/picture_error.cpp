@@ -19,9 +19,10 @@ using Clock = std::chrono::steady_clock;
 
 /// Added to the seed, so that no path is one of Renderer's.
 constexpr std::uint64_t ownSeed = 0x6572726F72ULL;
-/// Pixels that paths are traced through, and the fewest of a block. Many pixels are good for the mean, many paths in
-/// each for the relMSE.
-constexpr std::size_t mostPixels = 8192, fewestOfBlock = 8;
+/// Pixels that paths are traced through, paths that each of them has before there are more pixels, and the fewest
+/// pixels of a block. Many pixels are good for the mean, many paths in each for the relMSE.
+constexpr double mostPixels = 8192.0, fewestPixels = 1024.0, pathsOfPixel = 64.0;
+constexpr std::size_t fewestOfBlock = 8;
 constexpr std::uint64_t pathsOfRound = 2;
 
 double meanOf(const glm::dvec3& rgb) {
@@ -72,10 +73,15 @@ class Meter {
           tracer_(groundedScene(scene, boundsOf(volumes)), volumes, Majorant::local),
           skyUnit_(scene.image.background ? tracer_.skyUnit() : glm::dvec3(0.0)),
           width_(static_cast<std::size_t>(picture.width)),
-          seed_(seed + ownSeed) {
-        divide(picture, pixels);
-        draw(pixels.size());
+          seed_(seed + ownSeed),
+          pixels_(std::move(pixels)) {
+        divide(picture);
     }
+
+    /// Seconds that a path takes on all threads, by a trial.
+    double secondsOfPath() const;
+    /// Draws the pixels for about so many paths.
+    void draw(double paths);
 
     std::size_t pathsOfARound() const { return probes_.size() * pathsOfRound; }
 
@@ -93,8 +99,8 @@ class Meter {
     PictureError result() const;
 
   private:
-    void divide(const LayeredImage& picture, const std::vector<std::size_t>& pixels);
-    void draw(std::size_t counted);
+    void divide(const LayeredImage& picture);
+    glm::dvec3 traced(std::size_t pixel, Random& random, int& lost) const;
     void trace(std::size_t number);
 
     /// What a probe says of the mean difference, and of the relMSE.
@@ -109,6 +115,7 @@ class Meter {
     glm::dvec3 skyUnit_;  ///< AnyTracer's; black where the background is left out
     std::size_t width_;
     std::uint64_t seed_;
+    std::vector<std::size_t> pixels_;  ///< counted ones
     int edge_ = 1;
     double mean_ = 0.0;
     std::vector<Cell> cells_;
@@ -116,7 +123,7 @@ class Meter {
     std::uint64_t paths_ = 0;  ///< of each probe
 };
 
-void Meter::divide(const LayeredImage& picture, const std::vector<std::size_t>& pixels) {
+void Meter::divide(const LayeredImage& picture) {
     edge_ = std::max(1, (picture.height + 7) / 8);
     const int columns = (picture.width + edge_ - 1) / edge_, rows = (picture.height + edge_ - 1) / edge_;
     cells_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
@@ -127,12 +134,12 @@ void Meter::divide(const LayeredImage& picture, const std::vector<std::size_t>& 
         block.width = std::min(edge_, picture.width - block.x);
         block.height = std::min(edge_, picture.height - block.y);
     }
-    for (const std::size_t pixel : pixels) {
+    for (const std::size_t pixel : pixels_) {
         const std::size_t x = pixel % width_, y = pixel / width_, edge = static_cast<std::size_t>(edge_);
         Cell& cell = cells_[y / edge * static_cast<std::size_t>(columns) + x / edge];
         cell.pixels.push_back(pixel);
         cell.block.mean += colours_[pixel];
-        mean_ += meanOf(colours_[pixel]) / static_cast<double>(pixels.size());
+        mean_ += meanOf(colours_[pixel]) / static_cast<double>(pixels_.size());
     }
     std::erase_if(cells_, [](const Cell& cell) { return cell.pixels.empty(); });
     for (Cell& cell : cells_) {
@@ -142,11 +149,23 @@ void Meter::divide(const LayeredImage& picture, const std::vector<std::size_t>& 
     }
 }
 
-/// Draws the probes of each block from its pixels, one in each of equal parts of the importance.
-void Meter::draw(std::size_t counted) {
-    const auto wanted = static_cast<double>(std::min(mostPixels, counted));
+double Meter::secondsOfPath() const {
+    constexpr std::size_t trials = 512;
+    const Clock::time_point start = Clock::now();
+    tbb::parallel_for(std::size_t{0}, trials, [this](std::size_t i) {
+        Random random(seed_ + 1, i, 0);
+        int lost = 0;
+        traced(pixels_[i * pixels_.size() / trials], random, lost);
+    });
+    return std::chrono::duration<double>(Clock::now() - start).count() / static_cast<double>(trials);
+}
+
+/// Of each block, one pixel in each of equal parts of the importance.
+void Meter::draw(double paths) {
+    const auto counted = static_cast<double>(pixels_.size());
+    const double wanted = std::min(std::clamp(paths / pathsOfPixel, fewestPixels, mostPixels), counted);
     for (Cell& cell : cells_) {
-        const double share = cell.importance / static_cast<double>(counted);  // importance has a mean of 1
+        const double share = cell.importance / counted;  // importance has a mean of 1
         cell.first = probes_.size();
         cell.count = std::max(fewestOfBlock, static_cast<std::size_t>(std::lround(wanted * share)));
         const double step = cell.importance / static_cast<double>(cell.count);
@@ -163,17 +182,22 @@ void Meter::draw(std::size_t counted) {
     }
 }
 
+/// A path through a random point of a pixel.
+glm::dvec3 Meter::traced(std::size_t pixel, Random& random, int& lost) const {
+    const double px = static_cast<double>(pixel % width_) + random.uniform();
+    const double py = static_cast<double>(pixel / width_) + random.uniform();
+    const PathSample path = tracer_.trace(camera_.ray(px, py), random);
+    lost += path.lost ? 1 : 0;
+    return path.radiance + path.passed * skyUnit_;
+}
+
 void Meter::trace(std::size_t number) {
     Probe& probe = probes_[number];
-    const auto x = static_cast<double>(probe.pixel % width_), y = static_cast<double>(probe.pixel / width_);
     for (std::uint64_t i = 0; i < pathsOfRound; ++i) {
         Random random(seed_, number + 1, paths_ + i);
-        const double px = x + random.uniform(), py = y + random.uniform();
-        const PathSample path = tracer_.trace(camera_.ray(px, py), random);
-        const glm::dvec3 radiance = path.radiance + path.passed * skyUnit_;
+        const glm::dvec3 radiance = traced(probe.pixel, random, probe.lost);
         probe.sum += radiance;
         probe.square += radiance * radiance;
-        probe.lost += path.lost ? 1 : 0;
     }
 }
 
@@ -259,6 +283,7 @@ std::optional<PictureError> measureError(const LayeredImage& picture, const scen
     std::vector<std::size_t> pixels = cloudPixels(picture, picture);
     if (pixels.empty()) return std::nullopt;
     Meter meter(picture, scene, volumes, order.seed, std::move(pixels));
+    meter.draw(order.paths > 0 ? static_cast<double>(order.paths) : order.seconds / meter.secondsOfPath());
     const double each = static_cast<double>(meter.pathsOfARound());
     const double rounds = std::max(1.0, std::ceil(static_cast<double>(order.paths) / each));
     double took = 0.0;  // of the round before

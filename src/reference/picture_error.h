@@ -54,7 +54,7 @@ struct PictureError {
 /// Called between some thousand paths with the share of the work that is done, 0 to 1; what it throws ends the work.
 using ErrorProgress = std::function<void(double done)>;
 
-/// Measures the error of a picture of the scene by unbiased paths through some thousand of its pixels, on all threads
+/// Measures the error of a picture of the scene by unbiased paths through 1024 to 8192 of its pixels, on all threads
 /// of TBB. `volumes` are those of the scene's clouds with all their values. Pixels are drawn more often where the
 /// picture is bright, since the noise of paths is there, and weighted for it; all of them have as many paths. The truth
 /// of a pixel is the mean over its area. Absent where no pixel shows a cloud or fog. Errors: those of AnyTracer.
