@@ -21,7 +21,6 @@
 #include "cli/render_error.h"
 #include "cli/render_frames.h"
 #include "cli/stats_json.h"
-#include "progressive/bias.h"
 #include "progressive/trace_until.h"
 #include "render/renderer.h"
 #include "scene/fog_bounds.h"
@@ -116,8 +115,7 @@ ProgressiveStatistics traceProgressively(Renderer& renderer, const RenderOptions
             fmt::format("photons scatter very often in this scene: a generation has {} of them, so that it ends in "
                         "time",
                         reached.photonsEach));
-    return {progressive::nameOf(reached.stop), reached.noise,
-            progressive::biasEstimate(scene, renderer.statistics().photons), reached.previewSeconds};
+    return {progressive::nameOf(reached.stop), reached.noise, reached.previewSeconds};
 }
 
 /// Prints the noise and time that were reached.
@@ -126,17 +124,12 @@ void tellReached(const RenderOptions& options, const Statistics& statistics, con
     const std::string noise = reached.noise ? fmt::format("relMSE {:.2g} of noise", *reached.noise)
                                             : std::string("too few photons to tell their noise");
     if (!options.quiet)
-        logNote(fmt::format(
-            "stopped by {} after {:.2f} s: {}, {} photons in {} generations; similar scenes also have a "
-            "bias of relMSE {:.2g}",
-            reached.stop, seconds, noise, statistics.photons, statistics.generations, reached.biasEstimate));
+        logNote(fmt::format("stopped by {} after {:.2f} s: {}, {} photons in {} generations{}", reached.stop, seconds,
+                            noise, statistics.photons, statistics.generations,
+                            options.error.used() ? "" : "; --error measures its bias"));
     if (options.seconds && seconds > *options.seconds && reached.stop == "seconds" && statistics.generations <= 2)
         logWarning(fmt::format("{:g} s were too short for this scene: it took {:.2f} s with {} photons",
                                *options.seconds, seconds, statistics.photons));
-    if (options.targetError && *options.targetError < reached.biasEstimate)
-        logWarning(
-            fmt::format("the bias of relMSE {:.2g} is larger than the target {:g}, and falls slowly with photons",
-                        reached.biasEstimate, *options.targetError));
 }
 
 void writeOutputs(const RenderOptions& options, const LayeredImage& image, const scene::Image& how, Steps& steps) {

@@ -95,7 +95,6 @@ std::string statisticsJson(const Statistics& s, const std::optional<ProgressiveS
     if (progressive) {
         json["progressive"] = {{"stop", progressive->stop},
                                {"noise", progressive->noise ? Json(*progressive->noise) : Json()},
-                               {"bias_estimate", progressive->biasEstimate},
                                {"photons", s.photons},
                                {"generations", s.generations},
                                {"preview_seconds", progressive->previewSeconds}};

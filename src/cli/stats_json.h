@@ -13,7 +13,6 @@ namespace lumulus::cli {
 struct ProgressiveStatistics {
     std::string stop;             ///< "photons", "seconds" or "target-error"
     std::optional<double> noise;  ///< relMSE of the photons' noise, if known
-    double biasEstimate = 0.0;    ///< relMSE
     double previewSeconds = 0.0;  ///< spent on estimating the noise
 };
 

@@ -58,6 +58,17 @@ class Error(CliTest):
         self.assertGreater(min(layers["error.sigma"][i] for i in pixels), 0.0)
         self.assertRegex(said.splitlines()[-1], r"^lumulus: measured by \d+ paths in .* bias .* relMSE .* \(one sigma\)$")
 
+        own = self.run_lumulus("compare", self.out / "a.exr", "--self", "--json")
+        self.assertEqual(json.loads(own.stdout), {key: json.loads(header[f"error.{key}"]) for key in (
+            "bias", "bias_sigma", "paths", "relmse", "relmse_sigma")})
+        self.assertIn("bias_sigma", self.run_lumulus("compare", self.out / "a.exr", "--self").stdout)
+
+    def test_compare_self_needs_a_stated_error(self):
+        self.measured(self.scene(SKY + SCENE))
+        picture = self.out / "a.exr"
+        for words, says in (([picture, "--self"], "--error"), ([picture, picture, "--self"], "--self"), ([picture], "--self")):
+            self.assertIn(says, self.one_line(self.run_lumulus("compare", *words), 2))
+
     def test_the_picture_stays_and_the_measure_repeats(self):
         scene = self.scene(SKY + SCENE)
         plain, header, error, _ = self.measured(scene)
