@@ -127,7 +127,7 @@ void addReference(CLI::App& app, ReferenceOptions& options, Action& action) {
 void addCompare(CLI::App& app, CompareOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("compare", "Measure how far a picture is from a reference");
     command->add_option("image", options.image, "Picture (.exr)")->required();
-    command->add_option("reference", options.reference, "Reference (.exr)")->required();
+    command->add_option("reference", options.reference, "Reference (.exr)");
     command->add_option("second", options.secondReference,
                         "A second, independent reference, which removes the noise of both");
     command
@@ -135,6 +135,8 @@ void addCompare(CLI::App& app, CompareOptions& options, Action& action) {
                      "Picture (.exr) whose squares divide those of errors in relMSE, and whose cloud is compared, for "
                      "references of few samples; default: the reference")
         ->check(notEmpty());
+    command->add_flag("--self", options.self,
+                      "Without a reference: print what `render --error` has noted in the picture of its own error");
     command->add_flag("--json", options.json, "As JSON");
     command->add_option("--diff", options.diff,
                         "Write the difference: false colours (.png) or image - reference (.exr)");

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/exr.h"
 #include "base/png.h"
+#include "base/text.h"
 #include "base/tonemap.h"
 #include "cli/output.h"
 #include "reference/difference_picture.h"
@@ -108,6 +109,27 @@ LayeredImage readComparable(const std::filesystem::path& path, const reference::
     return other;
 }
 
+/// Prints the error that a picture states in its header.
+void tellOwnError(const CompareOptions& options) {
+    if (!options.reference.empty())
+        throw InputError("--self needs no reference", options.reference.string(), "leave one of them out");
+    const LayeredImage image = readExr(options.image);
+    const std::string prefix = "error.";
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    std::string text;
+    for (const auto& [name, value] : image.attributes) {
+        if (!name.starts_with(prefix)) continue;
+        const std::string key = name.substr(prefix.size());
+        const auto number = nlohmann::ordered_json::parse(value, nullptr, false);
+        json[oneLine(key)] = number.is_number() ? number : nlohmann::ordered_json(oneLine(value));
+        text += fmt::format("{:<16}{}\n", oneLine(key), oneLine(value));
+    }
+    if (text.empty())
+        throw InputError("the picture states no error of its own", options.image.string(),
+                         "render it with --error, or give a reference");
+    printOut(options.json ? json.dump() + "\n" : text);
+}
+
 }  // namespace
 
 std::string comparisonJson(const LayeredImage& image, const LayeredImage& truth, double exposure) {
@@ -116,6 +138,10 @@ std::string comparisonJson(const LayeredImage& image, const LayeredImage& truth,
 }
 
 void runCompare(const CompareOptions& options) {
+    if (options.self) return tellOwnError(options);
+    if (options.reference.empty())
+        throw InputError("there is nothing to compare the picture with", "reference",
+                         "give a reference, or --self for the error that the picture states itself");
     // the range of the option lets NaN through
     if (std::isnan(options.exposure)) {
         throw InputError("the exposure is not a number", "--exposure", "give a number of stops");

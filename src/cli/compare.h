@@ -14,6 +14,7 @@ struct CompareOptions {
     std::filesystem::path denominator;  ///< empty for the reference, or a picture that relative errors are relative to
     std::filesystem::path diff;         ///< empty, or file for the difference: false colours (.png), I − R (.exr)
     double exposure = 0.0;              ///< stops, for the tone-mapped pictures that FLIP compares
+    bool self = false;                  ///< no reference: what the picture's own header states of its error
     bool json = false;
 };
 

@@ -18,9 +18,9 @@
 #include "cli/clouds_told.h"
 #include "cli/output.h"
 #include "cli/picture_files.h"
+#include "cli/render_error.h"
 #include "cli/render_frames.h"
 #include "cli/stats_json.h"
-#include "progressive/bias.h"
 #include "progressive/trace_until.h"
 #include "render/renderer.h"
 #include "scene/fog_bounds.h"
@@ -72,6 +72,8 @@ bool progressive(const RenderOptions& options) {
 void requireSomeOutput(const RenderOptions& options) {
     if (options.outputs.empty() && options.maps.out.empty())
         throw InputError("nothing is to be written", "-o", "give a picture, or a photon map by --map-out");
+    if (options.error.used() && options.outputs.empty())
+        throw InputError("there is no picture whose error could be measured", "--error", "give one by -o");
     if (progressive(options) && options.maps.used())
         throw InputError("photon maps in files have a number of generations that is known before",
                          options.seconds ? "--seconds" : "--target-error",
@@ -113,8 +115,7 @@ ProgressiveStatistics traceProgressively(Renderer& renderer, const RenderOptions
             fmt::format("photons scatter very often in this scene: a generation has {} of them, so that it ends in "
                         "time",
                         reached.photonsEach));
-    return {progressive::nameOf(reached.stop), reached.noise,
-            progressive::biasEstimate(scene, renderer.statistics().photons), reached.previewSeconds};
+    return {progressive::nameOf(reached.stop), reached.noise, reached.previewSeconds};
 }
 
 /// Prints the noise and time that were reached.
@@ -123,17 +124,12 @@ void tellReached(const RenderOptions& options, const Statistics& statistics, con
     const std::string noise = reached.noise ? fmt::format("relMSE {:.2g} of noise", *reached.noise)
                                             : std::string("too few photons to tell their noise");
     if (!options.quiet)
-        logNote(fmt::format(
-            "stopped by {} after {:.2f} s: {}, {} photons in {} generations; similar scenes also have a "
-            "bias of relMSE {:.2g}",
-            reached.stop, seconds, noise, statistics.photons, statistics.generations, reached.biasEstimate));
+        logNote(fmt::format("stopped by {} after {:.2f} s: {}, {} photons in {} generations{}", reached.stop, seconds,
+                            noise, statistics.photons, statistics.generations,
+                            options.error.used() ? "" : "; --error measures its bias"));
     if (options.seconds && seconds > *options.seconds && reached.stop == "seconds" && statistics.generations <= 2)
         logWarning(fmt::format("{:g} s were too short for this scene: it took {:.2f} s with {} photons",
                                *options.seconds, seconds, statistics.photons));
-    if (options.targetError && *options.targetError < reached.biasEstimate)
-        logWarning(
-            fmt::format("the bias of relMSE {:.2g} is larger than the target {:g}, and falls slowly with photons",
-                        reached.biasEstimate, *options.targetError));
 }
 
 void writeOutputs(const RenderOptions& options, const LayeredImage& image, const scene::Image& how, Steps& steps) {
@@ -157,7 +153,9 @@ void runRender(const RenderOptions& options) {
     LightMaps maps(options.maps, scene);
 
     Steps steps(options.quiet);
+    ErrorOfPicture error(options.error, steps);
     RendererOptions how{options.device, options.validate, steps.reporter()};
+    how.read = error.reader();
     how.progressive = progressive(options);
     std::size_t told = 0;  // warnings
     how.loaded = [&](std::span<const CloudSummary> clouds, std::span<const std::string> warnings) {
@@ -178,6 +176,7 @@ void runRender(const RenderOptions& options) {
     const Statistics statistics = renderer.statistics();
     for (const std::string& warning : std::span(statistics.warnings).subspan(told)) logWarning(warning);
 
+    error.measure(image, scene, secondsSince(start));
     noteOrigin(image, scene, statistics);
 
     const Clock::time_point writing = Clock::now();
@@ -185,7 +184,8 @@ void runRender(const RenderOptions& options) {
     const double writeSeconds = secondsSince(writing);
     const double seconds = secondsSince(start);
     if (reached) tellReached(options, statistics, *reached, seconds);
-    writeStatistics(options.stats, statisticsJson(statistics, reached, writeSeconds, seconds));
+    error.tell(options.quiet);
+    writeStatistics(options.stats, statisticsJson(statistics, reached, writeSeconds, seconds, error.json()));
     tellDefaults(scene, options.quiet);
     requireNoMessages(options.validate, statistics);
 }

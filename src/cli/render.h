@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/light_maps.h"
+#include "cli/render_error.h"
 #include "scene/quality.h"
 
 namespace lumulus::cli {
@@ -22,6 +23,7 @@ struct RenderOptions {
     std::string frames;                 ///< "A-B:STEP"; empty: one picture
     bool skipExisting = false;          ///< frames whose files are whole
     LightMapOptions maps;
+    ErrorOptions error;
     std::string device;
     std::string stats;  ///< file, "-" for stdout, empty for none
     bool quiet = false;

@@ -3,6 +3,26 @@
 
 namespace lumulus::cli {
 
+namespace {
+
+void addErrorOptions(CLI::App& command, ErrorOptions& options) {
+    command.add_flag("--error", options.wanted,
+                     "Measure bias and relMSE of the picture by unbiased paths, for as long as the picture took: in "
+                     "--stats, in the header and as layers of .exr");
+    command
+        .add_option("--error-seconds", options.seconds,
+                    "Measure the error for at most this many seconds, instead of the time that the picture took")
+        ->check(notEmpty());
+    command
+        .add_option("--error-paths", options.paths,
+                    "Measure the error by this many paths at least, whatever time they take: its bits repeat")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40U));
+    command.add_flag("--correct", options.correct,
+                     "Measure the error and take it out of the picture, whose mean then has no bias");
+}
+
+}  // namespace
+
 void addRender(CLI::App& app, RenderOptions& options, Action& action) {
     CLI::App* command = app.add_subcommand("render", "Render a scene to pictures");
     command->add_option("scene", options.scene, sceneHelp)->required();
@@ -33,6 +53,7 @@ void addRender(CLI::App& app, RenderOptions& options, Action& action) {
         ->add_option("--target-error", options.targetError,
                      "Trace photons until the estimated relMSE of their noise is this small")
         ->check(notEmpty());
+    addErrorOptions(*command, options.error);
     addDevice(*command, options.device);
     command->add_option("--stats", options.stats, "Write statistics as JSON to this file, - for standard output")
         ->check(notEmpty());

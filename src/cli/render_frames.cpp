@@ -67,6 +67,9 @@ void checkOptions(const RenderOptions& options, std::int64_t firstFrame) {
     if (options.seconds || options.targetError)
         throw InputError("frames have the number of photons that their scene asks for",
                          options.seconds ? "--seconds" : "--target-error", "leave it out, or leave out --frames");
+    if (options.error.used())
+        throw InputError("the error of a picture is measured for one picture alone", "--error",
+                         "leave it out, or leave out --frames");
     if (options.maps.used())
         throw InputError("photon maps in files are of one picture", "--frames",
                          "leave it out, or leave out --map-in, --map-out and --generations");

@@ -54,7 +54,7 @@ Json preparationJson(const std::vector<AssetSummary>& assets) {
 }  // namespace
 
 std::string statisticsJson(const Statistics& s, const std::optional<ProgressiveStatistics>& progressive,
-                           double writeSeconds, double totalSeconds) {
+                           double writeSeconds, double totalSeconds, const Json& error) {
     Json passes = Json::array();
     for (const PassTime& pass : s.passes) passes.push_back({{"name", pass.name}, {"ms", pass.milliseconds}});
     Json clouds = Json::array();
@@ -95,11 +95,11 @@ std::string statisticsJson(const Statistics& s, const std::optional<ProgressiveS
     if (progressive) {
         json["progressive"] = {{"stop", progressive->stop},
                                {"noise", progressive->noise ? Json(*progressive->noise) : Json()},
-                               {"bias_estimate", progressive->biasEstimate},
                                {"photons", s.photons},
                                {"generations", s.generations},
                                {"preview_seconds", progressive->previewSeconds}};
     }
+    if (!error.is_null()) json["error"] = error;
     // names of devices and files may hold bytes that are no UTF-8
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -12,13 +13,13 @@ namespace lumulus::cli {
 struct ProgressiveStatistics {
     std::string stop;             ///< "photons", "seconds" or "target-error"
     std::optional<double> noise;  ///< relMSE of the photons' noise, if known
-    double biasEstimate = 0.0;    ///< relMSE
     double previewSeconds = 0.0;  ///< spent on estimating the noise
 };
 
-/// The text for --stats: one JSON object and a newline. The caller gives the seconds of writing and of the whole run.
+/// The text for --stats: one JSON object and a newline. The caller gives the seconds of writing and of the whole run,
+/// and what it measured of the error, if it did.
 std::string statisticsJson(const Statistics& statistics, const std::optional<ProgressiveStatistics>& progressive,
-                           double writeSeconds, double totalSeconds);
+                           double writeSeconds, double totalSeconds, const nlohmann::ordered_json& error = nullptr);
 
 /// Writes the JSON to the place of --stats: a file, stdout for "-", nowhere if empty. Errors: those of writing.
 void writeStatistics(const std::string& where, const std::string& json);

@@ -41,15 +41,9 @@ struct Channel {
         : radiance(image, name), variance(image, "variance." + name) {}
 };
 
-/// The pixels in which `shown` has a cloud and the reference no sun.
+/// The pixels to compare. Errors: InputError if there are none.
 std::vector<std::size_t> comparedPixels(const LayeredImage& shown, const LayeredImage& reference) {
-    const Layer red(shown, "transmittance.R"), green(shown, "transmittance.G"), blue(shown, "transmittance.B");
-    const Layer disc(reference, "sun.disc");
-    std::vector<std::size_t> pixels;
-    for (std::size_t i = 0; i < shown.pixels(); ++i) {
-        const bool cloud = std::min({red.at(i), green.at(i), blue.at(i)}) < 0.999;
-        if (cloud && disc.at(i) <= 0.0) pixels.push_back(i);
-    }
+    std::vector<std::size_t> pixels = cloudPixels(shown, reference);
     if (pixels.empty()) {
         throw InputError("no pixel of the reference shows the cloud", "transmittance", "compare pictures of a cloud");
     }
@@ -235,6 +229,17 @@ std::string sizeText(const LayeredImage& image) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> cloudPixels(const LayeredImage& shown, const LayeredImage& reference) {
+    const Layer red(shown, "transmittance.R"), green(shown, "transmittance.G"), blue(shown, "transmittance.B");
+    const Layer disc(reference, "sun.disc");
+    std::vector<std::size_t> pixels;
+    for (std::size_t i = 0; i < shown.pixels(); ++i) {
+        const bool cloud = std::min({red.at(i), green.at(i), blue.at(i)}) < 0.999;
+        if (cloud && disc.at(i) <= 0.0) pixels.push_back(i);
+    }
+    return pixels;
+}
 
 void requireComparable(const NamedImage& image, const NamedImage& reference) {
     if (image.image.width != reference.image.width || image.image.height != reference.image.height) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/image.h"
 
@@ -34,6 +35,9 @@ struct NamedImage {
     const LayeredImage& image;
     std::string name;
 };
+
+/// The pixels in which `shown` has a cloud or fog (a transmittance below 0.999) and `reference` none of the sun's disc.
+std::vector<std::size_t> cloudPixels(const LayeredImage& shown, const LayeredImage& reference);
 
 /// Checks that two pictures can be compared. Errors: InputError if a picture has no layers R, G, B, if a layer holds
 /// NaN, infinity or a negative variance (the message names layer and pixel), or if sizes differ.

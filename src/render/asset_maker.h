@@ -69,9 +69,7 @@ class AssetMaker {
         std::shared_ptr<const cloud::Asset> asset;
     };
 
-    bool mayKeep(const Group& group) const {
-        return options_.kept != nullptr && !pool_ && group.detail.parts == glm::ivec3(1);
-    }
+    bool mayKeep(const Group& group) const { return options_.kept != nullptr && group.detail.parts == glm::ivec3(1); }
     const FieldPointer& fieldOf(const Group& group) const {
         return volumes_.volumes[volumes_.clouds[group.instances.front()].volume];
     }

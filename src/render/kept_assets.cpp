@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "render/world_assets.h"
+#include "volume/load.h"
+
 namespace lumulus {
 
 KeptClouds::KeptClouds() : state_(std::make_unique<State>()) {}
@@ -24,6 +27,47 @@ sky::Environment KeptAir::environmentOf(const scene::Scene& scene) {
     sky::Environment environment(scene.sky, scene.ground, diameter, sky::moonOf(scene), same ? air : nullptr);
     *this = {scene.sky, scene.ground, diameter, environment.sharedAir()};
     return environment;
+}
+
+std::shared_ptr<const gpu::Image> KeptPool::find(CloudVolumes& volumes) const {
+    const auto isSame = [](const Field& kept, const FieldPointer& field, const vdb::SparseVolume& bricks) {
+        const auto place = [](const vdb::SparseVolume::Slot& slot) { return std::pair(slot.brick, slot.level); };
+        return !kept.field.owner_before(field) && !field.owner_before(kept.field) && kept.format == bricks.format &&
+               kept.bricks.nodes == bricks.nodes && kept.bricks.leafOf == bricks.leafOf &&
+               kept.bricks.cellBricks == bricks.cellBricks &&
+               std::ranges::equal(kept.bricks.slots, bricks.slots, {}, place, place);
+    };
+    if (fields.size() != volumes.bricks.size()) return nullptr;
+    for (std::size_t i = 0; i < fields.size(); ++i)
+        if (!isSame(fields[i], volumes.volumes[i], volumes.bricks[i])) return nullptr;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        vdb::LeafTable leaves = std::move(volumes.bricks[i].leaves);
+        volumes.bricks[i] = fields[i].bricks;
+        volumes.bricks[i].leaves = std::move(leaves);
+    }
+    return image;
+}
+
+std::shared_ptr<const gpu::Image> KeptClouds::State::poolOf(gpu::Context& device, CloudVolumes& volumes,
+                                                            const Check& check) {
+    if (!volumes.isSparse()) {
+        pool = {};
+        return nullptr;
+    }
+    if (auto known = pool.find(volumes)) return known;
+    keepOnly({});  // they are in the pool of before
+    pool = {};
+    KeptPool made;
+    for (std::size_t i = 0; i < volumes.bricks.size(); ++i)
+        made.fields.push_back({volumes.volumes[i], volumes.bricks[i].format, {}});
+    made.image = makePool(device, volumes.bricks, check);
+    for (std::size_t i = 0; i < volumes.bricks.size(); ++i) {
+        vdb::LeafTable leaves = std::exchange(volumes.bricks[i].leaves, {});
+        made.fields[i].bricks = volumes.bricks[i];
+        volumes.bricks[i].leaves = std::move(leaves);
+    }
+    pool = std::move(made);
+    return pool.image;
 }
 
 std::optional<float> KeptClouds::State::maximumOf(const FieldPointer& field, int level) const {

@@ -12,10 +12,13 @@
 #include "render/kept_clouds.h"
 #include "scene/scene.h"
 #include "sky/environment.h"
+#include "vdb/sparse_volume.h"
 #include "vdb/volume.h"
 
 /// What is in KeptClouds (inside render/ only).
 namespace lumulus {
+
+struct CloudVolumes;
 
 using FieldPointer = std::shared_ptr<const vdb::Volume>;
 /// Densities on the host, of the assets that a question has needed them of.
@@ -49,8 +52,23 @@ struct KeptAir {
     sky::Environment environmentOf(const scene::Scene& scene);
 };
 
+/// The pool of fields in bricks.
+struct KeptPool {
+    struct Field {
+        std::weak_ptr<const vdb::Volume> field;
+        vdb::DensityFormat format;  ///< that was chosen for it alone
+        vdb::SparseVolume bricks;   ///< in the pool, without leaves
+    };
+    std::vector<Field> fields;
+    std::shared_ptr<const gpu::Image> image;
+
+    /// The pool where these fields lie in it as they are laid out now; they have their places in it then. Else null.
+    std::shared_ptr<const gpu::Image> find(CloudVolumes& volumes) const;
+};
+
 struct KeptClouds::State {
     std::shared_ptr<gpu::Context> context;  ///< of all of it; outlives it
+    KeptPool pool;
     std::vector<KeptAsset> assets;
     KeptAir air;
     /// Of these assets, one for each instance that was drawn.
@@ -61,6 +79,9 @@ struct KeptClouds::State {
     /// The largest value of a field at a level, where an asset of both is kept.
     std::optional<float> maximumOf(const FieldPointer& field, int level) const;
     std::shared_ptr<const cloud::Asset> find(const AssetOrigin& origin) const;
+    /// The pool of fields in bricks: that of before, or a new one, without which nothing of before is kept. Null where
+    /// the fields are dense. Errors: those of cloud::makePool().
+    std::shared_ptr<const gpu::Image> poolOf(gpu::Context& device, CloudVolumes& volumes, const Check& check);
     /// Drops all assets but these, which it has, and what was made of others.
     void keepOnly(std::span<const std::shared_ptr<const cloud::Asset>> wanted);
     /// The volumes of the assets of instances.

@@ -10,8 +10,8 @@ struct DensityMissing {};
 
 /// What a renderer keeps for the next one on its device, beside which it does not live: prepared clouds, which are
 /// taken where the next one has the same fields in the same detail, and the tables of the air. Each renderer that is
-/// given it leaves in it what it needs itself, and drops the rest. The pictures are those of renderers that
-/// begin anew. Not for clouds in bricks nor for those of flat voxels, which are made anew.
+/// given it leaves in it what it needs itself, and drops the rest. Clouds in bricks are taken where all fields are laid
+/// out as before. The pictures are those of renderers that begin anew. Not for clouds of flat voxels.
 class KeptClouds {
   public:
     KeptClouds();

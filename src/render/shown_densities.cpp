@@ -91,6 +91,9 @@ std::unique_ptr<Renderer> ShownDensities::make(const scene::Scene& scene, const 
 /// Values are on the device from now on.
 void ShownDensities::forgetValues() {
     KeptClouds::State& kept = state_->kept.state();
+    std::erase_if(state_->known.fields, [](const KnownField& field) { return field.inBricks; });
+    std::erase_if(kept.assets, [](const KeptAsset& asset) { return asset.asset->isSparse(); });
+    kept.pool = {};
     for (KnownField& field : state_->known.fields) {
         const auto bare = withoutValues(*field.volume);
         for (KeptAsset& asset : kept.assets)

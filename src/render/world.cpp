@@ -73,8 +73,9 @@ class Maker {
         report_.loadSeconds = loading.seconds();
         makeCamera(scene_.camera, scene_.image, world_.bounds);  // what is wrong with it shows before the work
         const Stopwatch preparing;
-        if (options_.kept != nullptr && volumes.isSparse()) options_.kept->keepOnly({});  // its pool
-        const std::shared_ptr<const gpu::Image> pool = makePool(context_, volumes.bricks, options_.check);
+        const std::shared_ptr<const gpu::Image> pool = options_.kept != nullptr
+                                                           ? options_.kept->poolOf(context_, volumes, options_.check)
+                                                           : makePool(context_, volumes.bricks, options_.check);
         world_.light.resize(world_.instances.size());
         if (options_.kept != nullptr) world_.fields = options_.kept->fields;
         prepareAssets(context_, scene_, volumes, pool, options_, world_, report_);

@@ -11,7 +11,8 @@
 
 namespace lumulus {
 
-/// A dense field that was loaded, and what a scene has to know to show it.
+/// A field that was loaded, and what a scene has to know to show it. Of one in bricks, which are read again, that is
+/// the volume alone: it tells that bricks are of the same source.
 struct KnownField {
     scene::Cloud cloud;                         ///< that was the first to show it
     std::size_t index = 0;                      ///< of that cloud in its scene
@@ -20,9 +21,10 @@ struct KnownField {
     std::shared_ptr<const vdb::Volume> volume;  ///< may be withoutValues()
     vdb::ColumnSums sums;
     FilledVoxels filled;
+    bool inBricks = false;
 };
 
-/// The dense fields of a scene, for the next one: loadClouds() takes those that it shows again.
+/// The fields of a scene, for the next one: loadClouds() takes those that it shows again.
 struct KnownFields {
     std::vector<KnownField> fields;
 };

@@ -71,12 +71,12 @@ bool isKnown(const KnownField& field, const Source& source) {
 }
 
 /// Loads the dense field of a source, or takes one that is known.
-void fill(Source& source, double budget, const Report& report, const vdb::ReadLimits& limits,
-          const KnownFields* known) {
+void fill(Source& source, double budget, const Report& report, const vdb::ReadLimits& limits, const KnownFields* known,
+          bool inBricks = false) {
     source.budget = budget;
     if (known != nullptr)
         for (const KnownField& field : known->fields) {
-            if (field.budget != budget || !isKnown(field, source)) continue;
+            if (field.budget != budget || field.inBricks != inBricks || !isKnown(field, source)) continue;
             source.loaded = field.loaded;
             source.volume = field.volume;
             source.sums = field.sums;
@@ -87,6 +87,17 @@ void fill(Source& source, double budget, const Report& report, const vdb::ReadLi
     source.loaded = load(*source.cloud, source.index, budget, report, limits);
     source.volume = std::make_shared<const vdb::Volume>(std::move(source.loaded.volume));
     source.loaded.volume = {};
+}
+
+/// Takes the volume of a field in bricks from before, where it is the same.
+void recognise(Source& source, const KnownFields& known) {
+    for (const KnownField& field : known.fields) {
+        const vdb::Volume &before = *field.volume, &now = *source.volume;
+        const bool same = before.size == now.size && before.maximum == now.maximum && before.name == now.name &&
+                          before.toWorld.linear == now.toWorld.linear &&
+                          before.toWorld.translation == now.toWorld.translation;
+        if (field.inBricks && same && isKnown(field, source)) source.volume = field.volume;
+    }
 }
 
 /// Loads all sources. Only so much is held at a time as the budget and one more field take.
@@ -141,14 +152,14 @@ void dropOthers(KnownFields& known, const std::vector<Source>& sources) {
     });
 }
 
-/// The dense fields that were loaded, with what is told of each.
+/// The fields that were loaded, with what is told of each; in bricks where nothing is said of filled voxels.
 KnownFields fieldsOf(const std::vector<Source>& sources, const std::vector<vdb::ColumnSums>& sums,
                      const std::vector<FilledVoxels>& filled) {
     KnownFields known;
     for (std::size_t i = 0; i < sources.size(); ++i) {
         const Source& source = sources[i];
-        known.fields.push_back(
-            {*source.cloud, source.index, source.budget, source.loaded, source.volume, sums[i], filled[i]});
+        known.fields.push_back({*source.cloud, source.index, source.budget, source.loaded, source.volume, sums[i],
+                                filled.empty() ? FilledVoxels() : filled[i], filled.empty()});
     }
     return known;
 }
@@ -186,10 +197,12 @@ CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const C
     const bool sparse = storage == FieldStorage::asWanted && wantsBricks(scene.preparation, sources, limits);
     if (sparse) {
         for (Source& source : sources)
-            if (source.isFile())
+            if (source.isFile()) {
                 readBricks(source, report, limits);
-            else
-                fill(source, budget, report, limits, nullptr);
+                if (known != nullptr) recognise(source, *known);
+            } else {
+                fill(source, budget, report, limits, known, true);
+            }
     } else {
         if (known != nullptr) dropOthers(*known, sources);
         loadAll(sources, budget, report, limits, known);
@@ -219,7 +232,7 @@ CloudVolumes loadClouds(const scene::Scene& scene, const Report& report, const C
     if (known != nullptr && !sparse)
         for (const Source& source : sources)
             result.filled.push_back(source.filled ? *source.filled : filledVoxels(*source.volume));
-    if (known != nullptr) *known = sparse ? KnownFields() : fieldsOf(sources, sums, result.filled);
+    if (known != nullptr) *known = fieldsOf(sources, sums, result.filled);
     for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
         CloudVolumes::Cloud& cloud = result.clouds[i];
         const double extinction = scene.clouds[i].extinction * scene.clouds[i].densityScale;

@@ -52,7 +52,7 @@ enum class FieldStorage { dense, asWanted };
 /// Fields in bricks are not averaged: what does not fit the budget (pool, indices, majorants) has coarser levels where
 /// the scene's camera sees voxels smallest. Values of files come later, leaf by leaf (vdb::fillSlots).
 ///
-/// Dense fields that are `known` from another scene are taken from there: they are what loading gives, as long as files
+/// Fields that are `known` from another scene are taken from there: they are what loading gives, as long as files
 /// stay as they are. It has those of this scene then, and drops others before any is loaded. Known fields without
 /// values stay so.
 CloudVolumes loadClouds(const scene::Scene& scene, const Report& report = noReport,

@@ -96,6 +96,24 @@ class CliTest(unittest.TestCase):
             self.assertTrue(all(map(math.isfinite, values)), name)
         return layers, result
 
+    def interrupt(self, step, *arguments):
+        """Ctrl-C as soon as the progress of a step begins."""
+        with self.subTest(step=step):
+            process = subprocess.Popen([LUMULUS, *map(str, arguments)], stderr=subprocess.PIPE, text=True)
+            self.addCleanup(process.stderr.close)
+            watchdog = threading.Timer(120, process.kill)
+            watchdog.start()
+            self.addCleanup(watchdog.cancel)
+            line = process.stderr.readline()
+            while line and not line.startswith(f"{step}: 0/"):
+                line = process.stderr.readline()
+            self.assertNotEqual(line, "")
+            process.send_signal(signal.SIGINT)
+            lines = process.stderr.read().splitlines()
+            self.assertEqual(process.wait(timeout=60), 1)
+            self.assertEqual(lines[-1], "lumulus: error: interrupted: nothing was written")
+            self.assertEqual(list(self.out.iterdir()), [])
+
 
 class Usage(CliTest):
     def test_help_shows_an_example(self):
@@ -415,24 +433,6 @@ class Rendering(CliTest):
                                   *SMALL[1:])
         for step in ("loading the cloud: ", "preparing the cloud: ", "photons: 2/2 ", "drawing: 2/2 ", "writing: "):
             self.assertIn("\n" + step, "\n" + result.stderr)
-
-    def interrupt(self, step, *arguments):
-        """Ctrl-C as soon as the progress of a step begins."""
-        with self.subTest(step=step):
-            process = subprocess.Popen([LUMULUS, *map(str, arguments)], stderr=subprocess.PIPE, text=True)
-            self.addCleanup(process.stderr.close)
-            watchdog = threading.Timer(120, process.kill)
-            watchdog.start()
-            self.addCleanup(watchdog.cancel)
-            line = process.stderr.readline()
-            while line and not line.startswith(f"{step}: 0/"):
-                line = process.stderr.readline()
-            self.assertNotEqual(line, "")
-            process.send_signal(signal.SIGINT)
-            lines = process.stderr.read().splitlines()
-            self.assertEqual(process.wait(timeout=60), 1)
-            self.assertEqual(lines[-1], "lumulus: error: interrupted: nothing was written")
-            self.assertEqual(list(self.out.iterdir()), [])
 
     def test_interrupted(self):
         self.interrupt("making the cloud", "cloud", "cumulus", "-o", self.out / "a.vdb", "--resolution", 600)

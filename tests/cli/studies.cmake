@@ -14,6 +14,7 @@ lumulus_study(studies.many_clouds_truth many_clouds_truth --width 32 --scenes ov
               --set cloud.0.resolution=24 --set preparation.samples=500)
 lumulus_study(studies.scaling scaling ${tiny} --resolutions 24 --collectors 200 --photons 1000)
 lumulus_study(studies.bias_table bias_table ${tiny} --scenes smoke --spp 2 --fewer 1000)
+lumulus_study(studies.proven_error proven_error ${tiny} --scenes smoke --seeds 2 --paths 1000 --spp 2)
 lumulus_study(studies.flat_voxels flat_voxels --spp 2 --set photon_map.photons=1000 --set photon_map.generations=2
               --set preparation.samples=500 --set cloud.0.resolution=16)
 lumulus_study(studies.backward_peak backward_peak --g -0.95 --views "from the side" --quality draft --spp 2

@@ -147,6 +147,41 @@ TEST_F(FrameRendererTest, CloudsThatComeBackOrComeNear) {
     EXPECT_GT(frames[0].preparation(), 0.0);
 }
 
+const std::string bricks = constantSky + R"(
+image = { width = 32, height = 18 }
+photon_map = { photons = 4000, generations = 2 }
+preparation = { samples = 400, storage = "sparse" }
+)";
+const std::string nearer = "[animate]\n\"camera.position\" = [[0, [0, 300, 9000]], [3, [500, 700, 1500]]]\n";
+
+/// Fields in bricks, of files and procedural ones, are prepared once where all of them stay.
+TEST_F(FrameRendererTest, FieldsInBricks) {
+    vdb::write(vdb::makeCloud({"cumulus", 24, 1}), folder / "v.vdb");
+    const std::string file = "[[cloud]]\nvdb = \"v.vdb\"\n";
+    const std::string way = R"("cloud.0.transform" = [[0, [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]],
+                              [3, [[1, 0, 0, 300], [0, 1, 0, 0], [0, 0, 1, 0]]]])";
+    for (const std::string& toml : {bricks + file + still + "[animate]\n" + way, bricks + still + moving}) {
+        const std::vector<Shown> frames = all(toml);
+        EXPECT_GT(frames[0].preparation(), 0.0);
+        for (std::size_t i = 1; i < frames.size(); ++i) {
+            EXPECT_EQ(frames[i].preparation(), 0.0) << "frame " << i;
+            EXPECT_LT(bytes(frames[i]), 1.01 * bytes(frames[0])) << "memory stays flat";
+        }
+    }
+}
+
+/// All fields in bricks are prepared anew where one of them changes, and the pictures are right where one is asked for
+/// in more detail.
+TEST_F(FrameRendererTest, FieldsInBricksThatChange) {
+    vdb::write(vdb::makeCloud({"cumulus", 24, 1}), folder / "v.vdb");
+    for (int number = 0; number < count; ++number)
+        vdb::write(vdb::makeCloud({"cumulus", 24, static_cast<std::uint64_t>(number / 2) + 1}),
+                   folder / ("v" + std::to_string(number) + ".vdb"));
+    all(bricks + "[[cloud]]\nvdb = \"v.vdb\"\n" + still + nearer);
+    const std::vector<Shown> changing = all(bricks + "[[cloud]]\nvdb = \"v#.vdb\"\n" + still + nearer);
+    for (const Shown& frame : changing) EXPECT_GT(frame.preparation(), 0.0);
+}
+
 /// A frame that fails leaves nothing behind, and those after it are as they would be.
 TEST_F(FrameRendererTest, AFrameThatFails) {
     vdb::write(vdb::makeCloud({"cumulus", 20, 1}), folder / "v0.vdb");

@@ -13,5 +13,6 @@ lumulus_test(reference_clouds_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_c
 lumulus_test(reference_ground_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_ground_test.cpp LINK lumulus_reference)
 lumulus_test(reference_many_clouds_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_many_clouds_test.cpp
              LINK lumulus_reference)
+lumulus_test(reference_error_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_error_test.cpp LINK lumulus_reference)
 lumulus_test(reference_air_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_air_test.cpp LINK lumulus_reference)
 lumulus_test(reference_map_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_map_test.cpp LINK lumulus_reference)

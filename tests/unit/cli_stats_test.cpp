@@ -61,11 +61,10 @@ TEST(StatisticsJson, SaysWhereAProgressivePictureStopped) {
     Statistics s;
     s.photons = 300;
     s.generations = 3;
-    ProgressiveStatistics reached{"target-error", 0.25, 0.5, 1.5};
+    ProgressiveStatistics reached{"target-error", 0.25, 1.5};
     auto json = nlohmann::json::parse(statisticsJson(s, reached, 0.0, 0.0));
     EXPECT_EQ(json["progressive"], nlohmann::json({{"stop", "target-error"},
                                                    {"noise", 0.25},
-                                                   {"bias_estimate", 0.5},
                                                    {"photons", 300},
                                                    {"generations", 3},
                                                    {"preview_seconds", 1.5}}));

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <random>
 
-#include "progressive/bias.h"
 #include "progressive/noise.h"
 
 namespace lumulus::progressive {
@@ -72,26 +71,6 @@ TEST(Noise, IsThatOfTheWhole) {
         // the squares spread by √2 of themselves; R, which is noisy too, adds about 3 s²/generations
         EXPECT_NEAR(noiseOf(preview, generations), exact, (4.0 * std::sqrt(2.0 / (3 * width * height)) + 0.01) * exact);
     }
-}
-
-/// More harmonics and more photons never have more bias, and what is left out is not for nothing.
-TEST(Bias, FallsWithBandsAndPhotons) {
-    constexpr std::uint64_t many = 100'000'000;
-    scene::Scene scene;
-    double before = 1.0;
-    for (int bands = 1; bands <= 8; ++bands) {
-        scene.photonMap.bands = bands;
-        const double bias = biasEstimate(scene, many);
-        EXPECT_GT(bias, 0.0);
-        EXPECT_LE(bias, before) << bands;
-        before = bias;
-    }
-    EXPECT_NEAR(biasEstimate(scene, 200'000), 0.0110, 0.001) << "smoke, without its noise";
-    EXPECT_NEAR(biasEstimate(scene, 2'000'000), 0.0021, 0.0005) << "smoke";
-    EXPECT_NEAR(biasEstimate(scene, 8'000'000), 0.0012, 0.0003) << "back-lit";
-    EXPECT_NEAR(biasEstimate(scene, 24'000'000), 0.0010, 0.0003) << "back-lit";
-    scene.draw.mode = scene::DrawMode::billboards;
-    EXPECT_GT(biasEstimate(scene, many), before);
 }
 
 }  // namespace

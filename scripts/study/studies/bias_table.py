@@ -1,5 +1,5 @@
-"""What error stays however many photons there are. Two Markdown tables over shipped scenes, from whose last columns, the
-largest over the scenes, src/progressive/bias.cpp has its figures.
+"""What error stays however many photons there are. Two Markdown tables over shipped scenes, the last columns of
+which are the largest over the scenes.
 
 Bands: relMSE of pictures with 1 to 6 bands against one with 8 from the same photons, so that there is no noise in it.
 The rest: pictures against two independent references, less the noise that their two parts tell. Cells of the light field are

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "base/image.h"
+#include "scene/scene.h"
+#include "vdb/placed_volume.h"
+
+namespace lumulus::reference {
+
+/// How long paths are traced to measure the error of a picture.
+struct ErrorOrder {
+    std::uint64_t seed = 0;  ///< the picture's; paths have random numbers of their own, which `Renderer` has not either
+    double seconds = 0.0;    ///< where `paths` is 0: about this long at most, and at least two paths a pixel
+    std::uint64_t paths = 0;  ///< at least so many, whatever time they take; the result then repeats to the bit
+};
+
+/// A square of a picture, and how far its counted pixels are off in the mean. Radiances in W·m⁻²·sr⁻¹.
+struct ErrorBlock {
+    int x = 0, y = 0;            ///< pixel of its upper left corner
+    int width = 0, height = 0;   ///< pixels; smaller at the right and the lower edge
+    std::size_t pixels = 0;      ///< counted ones
+    glm::dvec3 mean{0.0};        ///< of the picture over them
+    glm::dvec3 difference{0.0};  ///< the picture less the truth, in the mean over them
+    double sigma = 0.0;          ///< standard error of the mean of the three differences
+
+    /// Over the mean of the picture; 0 where that is black.
+    double bias() const;
+    double biasSigma() const;
+};
+
+/// The error of a picture I against the truth R, over the pixels of clouds and fog, as `compare` counts them. Standard
+/// errors come from the scatter over the pixels that paths were traced through.
+struct PictureError {
+    std::size_t pixels = 0;  ///< counted ones
+    double mean = 0.0;       ///< of the picture over them and the three channels
+    double bias = 0.0;       ///< mean (I − R) over `mean`: above 0 where the picture is too bright
+    double biasSigma = 0.0;
+    double relMse = 0.0;  ///< mean (I − R)² / (I² + .01·mean²) less the noise of the paths: by chance below 0
+    double relMseSigma = 0.0;
+    std::uint64_t paths = 0, lost = 0;  ///< lost ones met the limit of scattering events
+    double seconds = 0.0;
+    int edge = 0;                    ///< of the blocks, pixels: an eighth of the picture's height
+    std::vector<ErrorBlock> blocks;  ///< that have counted pixels, row by row from the top
+
+    glm::dvec3 difference() const;  ///< mean of I − R over all counted pixels
+};
+
+/// Called between some thousand paths with the share of the work that is done, 0 to 1; what it throws ends the work.
+using ErrorProgress = std::function<void(double done)>;
+
+/// Measures the error of a picture of the scene by unbiased paths through 1024 to 8192 of its pixels, on all threads
+/// of TBB. `volumes` are those of the scene's clouds with all their values. Pixels are drawn more often where the
+/// picture is bright, since the noise of paths is there, and weighted for it; all of them have as many paths. The truth
+/// of a pixel is the mean over its area. Absent where no pixel shows a cloud or fog. Errors: those of AnyTracer.
+std::optional<PictureError> measureError(const LayeredImage& picture, const scene::Scene& scene,
+                                         const std::vector<vdb::PlacedVolume>& volumes, const ErrorOrder& order,
+                                         const ErrorProgress& progress);
+
+/// Adds the layers error.bias and error.sigma: the mean difference of the pixel's block (mean of the channels), and its
+/// standard error, W·m⁻²·sr⁻¹; 0 where no pixel counts.
+void addErrorLayers(LayeredImage& picture, const PictureError& error);
+
+/// Takes the measured difference from R, G, B and cloud.R, .G, .B of the counted pixels: relative to the light of the
+/// cloud, smooth between the blocks, of each block as much as its noise lets trust. The mean over all counted pixels
+/// then has no bias, channel by channel.
+void correct(LayeredImage& picture, const PictureError& error);
+
+}  // namespace lumulus::reference

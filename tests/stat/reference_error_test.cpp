@@ -1,0 +1,214 @@
+// The error of a picture, measured by paths: pictures that are wrong by what is known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "reference/metrics.h"
+#include "reference/picture_error.h"
+#include "reference/render.h"
+#include "stat/ball.h"
+#include "support/statistics.h"
+
+namespace lumulus::reference {
+namespace {
+
+using glm::dvec3;
+
+const auto goOn = [](std::uint64_t) { return true; };
+const auto noProgress = [](double) {};
+
+/// A ball in a sky of radiance 1 without a sun.
+scene::Scene furnaceScene() {
+    scene::Scene scene;
+    scene.image = {20, 20, 0.0};
+    scene.clouds.resize(1);
+    scene.clouds[0].extinction = 0.3;
+    scene.clouds[0].phase.g = 0.3;
+    scene.clouds[0].albedo = dvec3(1.0);
+    scene.sun.irradiance = dvec3(0.0);
+    scene.sky.model = scene::SkyModel::constant;
+    scene.sky.radiance = dvec3(1.0);
+    return scene;
+}
+
+/// The same ball, darker, under the sun.
+scene::Scene sunnyScene() {
+    scene::Scene scene = furnaceScene();
+    scene.clouds[0].albedo = dvec3(1.0, 0.98, 0.9);
+    scene.sun.irradiance = dvec3(3.0);
+    return scene;
+}
+
+const vdb::Volume& ball() {
+    static const vdb::Volume volume = ballVolume(16, 10.0);
+    return volume;
+}
+
+PictureError errorOf(const LayeredImage& picture, const scene::Scene& scene, std::uint64_t seed, std::uint64_t paths) {
+    return measureError(picture, scene, {ball()}, {seed, 0.0, paths}, noProgress).value();
+}
+
+/// The picture whose cloud has light that is wrong by a factor for each column, before a background that is right.
+template <typename Factor>
+LayeredImage withWrongCloud(LayeredImage picture, const Factor& factor) {
+    for (const std::string channel : {"R", "G", "B"})
+        for (std::size_t i = 0; i < picture.pixels(); ++i) {
+            float& cloud = picture.layers.at("cloud." + channel)[i];
+            const float more = cloud * static_cast<float>(factor(static_cast<int>(i) % picture.width) - 1.0);
+            cloud += more;
+            picture.layers.at(channel)[i] += more;
+        }
+    return picture;
+}
+
+LayeredImage scaled(LayeredImage picture, double factor) {
+    for (const std::string channel : {"R", "G", "B"})
+        for (float& value : picture.layers.at(channel)) value *= static_cast<float>(factor);
+    return picture;
+}
+
+/// The truth of the sunny scene by many paths; its own noise is a tenth of what is measured.
+const LayeredImage& truth() {
+    static const LayeredImage picture = [] {
+        Renderer renderer(sunnyScene(), {ball()}, Majorant::local, 1);
+        for (int i = 0; i < 4096; ++i) renderer.pass(goOn);
+        return renderer.picture();
+    }();
+    return picture;
+}
+
+/// Standard error of the mean of the truth, over that mean.
+double noiseOfTruth() {
+    const Comparison same = compare(truth(), truth());
+    return *same.relativeBias.standardError / std::sqrt(2.0);
+}
+
+TEST(PictureError, OfAFurnaceIsExact) {
+    LayeredImage picture;
+    picture.width = picture.height = 20;
+    for (const std::string channel : {"R", "G", "B"}) {
+        picture.layer(channel, 1.0F);
+        picture.layer("transmittance." + channel, 0.5F);
+    }
+    const PictureError none = errorOf(picture, furnaceScene(), 1, 4000);
+    EXPECT_EQ(none.pixels, 400U);
+    EXPECT_GE(none.paths, 4000U);
+    EXPECT_NEAR(none.bias, 0.0, 1e-9);
+    EXPECT_NEAR(none.relMse, 0.0, 1e-9);
+    for (const std::string channel : {"R", "G", "B"}) std::ranges::fill(picture.layers.at(channel), 1.25F);
+    const PictureError bright = errorOf(picture, furnaceScene(), 1, 4000);
+    EXPECT_NEAR(bright.bias, 0.2, 1e-9);
+    EXPECT_NEAR(bright.biasSigma, 0.0, 0.01) << "weights by brightness are all the same here";
+    EXPECT_NEAR(bright.relMse, 0.04 / 1.01, 1e-6);
+    EXPECT_EQ(bright.edge, 3) << "an eighth of the height, whole pixels";
+    EXPECT_EQ(bright.blocks.size(), 49U);
+    for (const ErrorBlock& block : bright.blocks) EXPECT_NEAR(block.bias(), 0.2, 1e-9);
+}
+
+TEST(PictureError, FindsAKnownFactor) {
+    for (const double factor : {1.05, 0.95}) {
+        const LayeredImage wrong = scaled(truth(), factor);
+        const PictureError error = errorOf(wrong, sunnyScene(), 2, 400'000);
+        const double bias = 1.0 - 1.0 / factor;
+        EXPECT_LT(error.biasSigma, 0.005);
+        EXPECT_NEAR(error.bias, bias, 4.0 * std::hypot(error.biasSigma, noiseOfTruth()));
+        const double noise = *compare(truth(), truth()).referenceNoise;
+        const double relMse = compare(truth(), wrong).relMse.value;  // divided by the wrong picture's squares
+        EXPECT_NEAR(error.relMse, relMse, 4.0 * error.relMseSigma + noise);
+        EXPECT_GT(error.relMse, 0.5 * bias * bias);
+        double squares = 0.0;
+        for (const ErrorBlock& block : error.blocks)
+            squares += std::pow((block.bias() - bias) / block.biasSigma(), 2.0);
+        const auto count = static_cast<double>(error.blocks.size());
+        EXPECT_NEAR(squares / count, 1.0, 4.0 * std::sqrt(2.0 / count) + 0.3) << "t of few pixels";
+    }
+}
+
+/// Two sigma hold in 95 % of the seeds: at least 33 of 40 but once in a thousand times; sigma is what seeds scatter by.
+TEST(PictureError, IsWithinItsBoundsAsOftenAsItSays) {
+    constexpr int seeds = 40;
+    constexpr double factor = 1.02;
+    const LayeredImage wrong = scaled(truth(), factor);
+    const double bias = 1.0 - 1.0 / factor, relMse = compare(truth(), wrong).relMse.value;
+    int biasHeld = 0, relMseHeld = 0;
+    test::RunningMean seen, stated;
+    for (int seed = 0; seed < seeds; ++seed) {
+        const PictureError error = errorOf(wrong, sunnyScene(), static_cast<std::uint64_t>(100 + seed), 16'000);
+        biasHeld += std::abs(error.bias - bias) < 2.0 * std::hypot(error.biasSigma, noiseOfTruth()) ? 1 : 0;
+        relMseHeld += std::abs(error.relMse - relMse) < 2.0 * error.relMseSigma ? 1 : 0;
+        seen.add(error.bias);
+        stated.add(error.biasSigma);
+    }
+    EXPECT_GE(biasHeld, 33);
+    EXPECT_GE(relMseHeld, 33);
+    const double scatter = seen.standardError() * std::sqrt(double{seeds});
+    EXPECT_NEAR(scatter / stated.mean(), 1.0, 4.0 / std::sqrt(2.0 * seeds));
+    EXPECT_NEAR(seen.mean(), bias, 4.0 * std::hypot(seen.standardError(), noiseOfTruth()));
+}
+
+dvec3 meanOf(const LayeredImage& picture) {
+    dvec3 sum(0.0);
+    const std::vector<std::size_t> pixels = cloudPixels(picture, picture);
+    for (const std::size_t i : pixels)
+        sum += dvec3(picture.layers.at("R")[i], picture.layers.at("G")[i], picture.layers.at("B")[i]);
+    return sum / static_cast<double>(pixels.size());
+}
+
+/// A cloud that is 20 % too bright on one side and 18 % too dark on the other.
+TEST(PictureError, CorrectionTakesMoreErrorThanItAdds) {
+    const LayeredImage wrong = withWrongCloud(truth(), [](int x) { return 1.2 - 0.02 * x; });
+    const PictureError error = errorOf(wrong, sunnyScene(), 3, 400'000);
+    LayeredImage better = wrong;
+    correct(better, error);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(meanOf(better)[c], meanOf(wrong)[c] - error.difference()[c], 1e-6) << "exact in the mean";
+    EXPECT_LT(compare(better, truth()).relMse.value, 0.35 * compare(wrong, truth()).relMse.value);
+}
+
+/// Of a picture without an error few noisy paths are not taken for one.
+TEST(PictureError, CorrectionOfNothingIsNextToNothing) {
+    const PictureError error = errorOf(truth(), sunnyScene(), 4, 8000);
+    LayeredImage same = truth();
+    correct(same, error);
+    double blocks = 0.0;  // what blocks taken as they are would add
+    for (const ErrorBlock& block : error.blocks)
+        blocks += std::pow(block.bias(), 2.0) * static_cast<double>(block.pixels) / static_cast<double>(error.pixels);
+    EXPECT_LT(compare(same, truth()).relMse.value, 0.2 * blocks + 4.0 * error.biasSigma * error.biasSigma);
+}
+
+TEST(PictureError, RepeatsToTheBitAndHasLayers) {
+    const PictureError a = errorOf(truth(), sunnyScene(), 5, 4000), b = errorOf(truth(), sunnyScene(), 5, 4000);
+    EXPECT_EQ(a.bias, b.bias);
+    EXPECT_EQ(a.relMse, b.relMse);
+    EXPECT_NE(a.bias, errorOf(truth(), sunnyScene(), 6, 4000).bias);
+    LayeredImage picture = truth();
+    addErrorLayers(picture, a);
+    const ErrorBlock& block = a.blocks[a.blocks.size() / 2];
+    bool found = false;
+    for (const std::size_t pixel : cloudPixels(picture, picture)) {
+        const int x = static_cast<int>(pixel) % 20 - block.x, y = static_cast<int>(pixel) / 20 - block.y;
+        if (x < 0 || y < 0 || x >= block.width || y >= block.height) continue;
+        found = true;
+        EXPECT_FLOAT_EQ(picture.layers.at("error.sigma")[pixel], static_cast<float>(block.sigma));
+        EXPECT_FLOAT_EQ(picture.layers.at("error.bias")[pixel],
+                        static_cast<float>((block.difference.x + block.difference.y + block.difference.z) / 3.0));
+    }
+    EXPECT_TRUE(found);
+}
+
+TEST(PictureError, EndsWhereItHasTo) {
+    LayeredImage sky = truth();
+    for (const std::string channel : {"R", "G", "B"})
+        std::ranges::fill(sky.layers.at("transmittance." + channel), 1.0F);
+    EXPECT_FALSE(measureError(sky, sunnyScene(), {ball()}, {1, 0.0, 1000}, noProgress).has_value());
+    const auto stop = [](double) { throw std::runtime_error("stop"); };
+    EXPECT_THROW(measureError(truth(), sunnyScene(), {ball()}, {1, 1e9, 0}, stop), std::runtime_error);
+    const auto timed = measureError(truth(), sunnyScene(), {ball()}, {1, 1e-6, 0}, noProgress);
+    EXPECT_EQ(timed->paths % 2, 0U);
+    EXPECT_LT(timed->paths, 2000U) << "one round, however short the time";
+}
+
+}  // namespace
+}  // namespace lumulus::reference
