@@ -112,6 +112,10 @@ void addReference(CLI::App& app, ReferenceOptions& options, Action& action) {
             "--majorant", [&options](const std::string& name) { options.localMajorant = name == "local"; },
             "global (default) or local, which is faster and changes only the noise")
         ->check(CLI::IsMember({"global", "local"}));
+    command
+        ->add_option("--scatterings", options.scatterings,
+                     "Leave out light that was scattered or reflected more often; 1 is single scattering")
+        ->check(CLI::Range(0, 1'000'000));
     command->add_flag("--resume", options.resume, "Continue the existing file; --spp includes its samples");
     addOverrides(*command, options.overrides);
     addFrame(*command, options.frame);

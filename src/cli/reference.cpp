@@ -68,7 +68,8 @@ reference::Renderer rendererOf(const ReferenceOptions& options, const scene::Sce
     const CloudVolumes clouds = loadClouds(scene);
     summaries = summarise(scene, clouds);
     tellClouds(summaries, clouds.warnings, options.quiet);
-    return {scene, clouds.placed(), majorant, scene.photonMap.seed};
+    return {scene, clouds.placed(), majorant, scene.photonMap.seed,
+            options.scatterings.value_or(reference::allScatterings)};
 }
 
 /// Continues the film of an earlier run, if there is one.
@@ -123,6 +124,7 @@ void write(const ReferenceOptions& options, const scene::Scene& scene, const ref
     LayeredImage image = renderer.picture();
     noteReference(image, scene, film, options.localMajorant);
     noteGrids(image, clouds);
+    if (options.scatterings) image.attributes["scatterings"] = std::to_string(*options.scatterings);
     // the sums come first: an interruption between the two files loses no work
     reference::writeFilm(reference::sumsBeside(options.output), film, renderer.fingerprint());
     writeExr(options.output, image);

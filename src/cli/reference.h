@@ -19,6 +19,7 @@ struct ReferenceOptions {
     std::optional<std::int64_t> frame;  ///< of an animated scene; its number goes into the name of the picture
     std::optional<double> seconds;      ///< time of this run; at least one sample per pixel
     bool localMajorant = false;
+    std::optional<int> scatterings;  ///< light that was scattered or reflected more often is left out
     bool resume = false;
     std::vector<std::string> overrides;
     std::optional<std::uint64_t> seed;  ///< absent: photon_map.seed

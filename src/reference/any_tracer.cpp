@@ -6,9 +6,9 @@ namespace lumulus::reference {
 namespace {
 
 std::variant<PathTracer, AirTracer> tracerOf(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes,
-                                             Majorant majorant) {
-    if (scene.sky.model == scene::SkyModel::atmosphere) return AirTracer(scene, volumes, majorant);
-    return PathTracer(scene, volumes, majorant);
+                                             Majorant majorant, int scatterings) {
+    if (scene.sky.model == scene::SkyModel::atmosphere) return AirTracer(scene, volumes, majorant, scatterings);
+    return PathTracer(scene, volumes, majorant, scatterings);
 }
 
 /// The scene under its moon alone. Its night sky is that of a sun as weak as the moon, which is as good as none.
@@ -19,15 +19,20 @@ scene::Scene moonlit(scene::Scene scene) {
     scene.sun.directionTo = scene.moon.directionTo;
     scene.sun.irradiance *= std::pow(10.0, 0.4 * (sunMagnitude - magnitude));
     scene.sun.limbDarkening = false;
+    // all other light has been counted beside the sun's
+    for (scene::Surface& surface : scene.surfaces) surface.emission = glm::dvec3(0.0);
+    for (scene::FogMedium& medium : scene.fog.media) medium.emission = glm::dvec3(0.0);
+    scene.lamps.clear();
     return scene;
 }
 
 }  // namespace
 
-AnyTracer::AnyTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant)
-    : tracer_(tracerOf(scene, volumes, majorant)) {
+AnyTracer::AnyTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
+                     int scatterings)
+    : tracer_(tracerOf(scene, volumes, majorant, scatterings)) {
     if (scene.moon.shines && scene.sky.model == scene::SkyModel::atmosphere)
-        moon_.emplace(moonlit(scene), volumes, majorant);
+        moon_.emplace(moonlit(scene), volumes, majorant, scatterings);
 }
 
 PathSample AnyTracer::trace(const Ray& ray, Random& random) const {
@@ -54,6 +59,10 @@ glm::dvec3 AnyTracer::discSeen(const Ray& ray) const {
 
 glm::dvec3 AnyTracer::discUnit() const {
     return std::visit([](const auto& tracer) { return tracer.discUnit(); }, tracer_);
+}
+
+glm::dvec3 AnyTracer::lampSeen(const Ray& ray, std::size_t lamp) const {
+    return std::visit([&](const auto& tracer) { return tracer.lampSeen(ray, lamp); }, tracer_);
 }
 
 glm::dvec3 AnyTracer::skyUnit() const {

@@ -12,13 +12,15 @@ namespace lumulus::reference {
 class AnyTracer {
   public:
     /// As BasicPathTracer.
-    AnyTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant);
+    AnyTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
+              int scatterings = allScatterings);
 
     PathSample trace(const Ray& ray, Random& random) const;
     RayIntegrals integrate(const Ray& ray) const;
     std::optional<double> front(const Ray& ray) const;
     glm::dvec3 discSeen(const Ray& ray) const;
     glm::dvec3 discUnit() const;
+    glm::dvec3 lampSeen(const Ray& ray, std::size_t lamp) const;
     /// Environment::unit.
     glm::dvec3 skyUnit() const;
     const SunDisc& sun() const;

@@ -20,12 +20,36 @@ double densityIn(double oneMinusCos) {
 
 }  // namespace
 
-Lamps::Lamps(const std::vector<scene::Surface>& surfaces) {
+std::vector<scene::Surface> withLamps(std::vector<scene::Surface> surfaces, const std::vector<scene::Lamp>& lamps) {
+    for (const scene::Lamp& lamp : lamps) {
+        if (!lamp.shines()) continue;
+        scene::Surface& sphere = surfaces.emplace_back();
+        sphere.kind = scene::SurfaceKind::sphere;
+        sphere.position = lamp.position;
+        sphere.radius = lamp.radius;
+        sphere.albedo = glm::dvec3(0.0);
+    }
+    return surfaces;
+}
+
+Lamps::Lamps(const std::vector<scene::Surface>& surfaces, const std::vector<scene::Lamp>& lamps) : surfaces_(surfaces) {
+    for (const scene::Lamp& lamp : lamps) {
+        if (lamp.shines()) beams_.emplace_back(lamp);
+    }
+    firstBeam_ = surfaces.size() - beams_.size();
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const scene::Surface& s = surfaces[i];
         const double light = s.emission.x + s.emission.y + s.emission.z;
         if (s.kind != scene::SurfaceKind::sphere || !(light > 0.0)) continue;
-        lamps_.push_back({i, s.position, s.radius, light * s.radius * s.radius});
+        lamps_.push_back({i, s.position, s.radius, light * s.radius * s.radius, {}});
+    }
+    std::size_t surface = firstBeam_;
+    for (const scene::Lamp& lamp : lamps) {
+        if (!lamp.shines()) continue;
+        const LampLight& beam = beams_[surface - firstBeam_];
+        const double power = lamp.power.x + lamp.power.y + lamp.power.z;
+        lamps_.push_back(
+            {surface++, lamp.position, lamp.radius, power * beam.largestShare() * glm::one_over_pi<double>(), beam});
     }
 }
 
@@ -33,7 +57,12 @@ Lamps::Lamps(const std::vector<scene::Surface>& surfaces) {
 double Lamps::Lamp::weightAt(const glm::dvec3& point) const {
     const glm::dvec3 way = middle - point;
     const double square = glm::dot(way, way);
-    return square > radius * radius ? light / square : 0.0;
+    if (!(square > radius * radius)) return 0.0;
+    if (beam) {
+        const double distance = std::sqrt(square);
+        if (!beam->reaches(-way / distance, std::asin(radius / distance))) return 0.0;
+    }
+    return light / square;
 }
 
 double Lamps::weightAt(const glm::dvec3& point) const {
@@ -44,6 +73,7 @@ double Lamps::weightAt(const glm::dvec3& point) const {
 
 std::optional<LampSample> Lamps::sample(const glm::dvec3& point, Random& random) const {
     const double total = weightAt(point);
+    if (!(total > 0.0)) return std::nullopt;
     double left = total * random.uniform();
     for (const Lamp& lamp : lamps_) {
         const double weight = lamp.weightAt(point);
@@ -56,6 +86,10 @@ std::optional<LampSample> Lamps::sample(const glm::dvec3& point, Random& random)
                           weight / total * densityIn(cone)};
     }
     return std::nullopt;
+}
+
+glm::dvec3 Lamps::emission(std::size_t surface, const glm::dvec3& direction) const {
+    return surface < firstBeam_ ? surfaces_[surface].emission : beams_[surface - firstBeam_].radiance(direction);
 }
 
 double Lamps::density(const glm::dvec3& point, std::size_t surface) const {

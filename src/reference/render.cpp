@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "reference/fingerprint.h"
 #include "reference/ground.h"
 #include "scene/ephemeris.h"
+#include "scene/finish_lamps.h"
 #include "scene/phase_table_file.h"
 #include "view/ground.h"
 
@@ -63,6 +65,11 @@ void addAir(Fingerprint& print, const scene::Sky& sky) {
     print.add(sky.model).add(static_cast<int>(sky.hillaire)).add(sky.aerosolDepth).add(sky.angstrom).add(sky.ozone);
 }
 
+void addLamp(Fingerprint& print, const scene::Lamp& lamp) {
+    print.add(lamp.kind).add(lamp.angle).add(lamp.softness).add(lamp.radius);
+    for (const glm::dvec3& v : {lamp.position, lamp.direction, lamp.power}) addVector(print, v);
+}
+
 /// The map by its name: its content is read once and not kept here.
 void addMap(Fingerprint& print, const scene::Sky& sky) {
     const std::string name = sky.map.string();
@@ -82,6 +89,9 @@ std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::Pl
     for (std::size_t i = 0; i < volumes.size(); ++i) addCloud(print, scene.clouds[i], volumes[i]);
     if (!scene.fog.media.empty()) addFog(print, scene.fog);
     for (const scene::Surface& surface : surfacesOf(scene)) addSurface(print, surface);
+    for (const scene::Lamp& lamp : scene.lamps) {
+        if (lamp.shines()) addLamp(print, lamp);
+    }
     if (scene.sun.limbDarkening) print.add(1);
     if (scene.sky.model == scene::SkyModel::atmosphere) addAir(print, scene.sky);
     if (scene.moon.shines) {
@@ -96,9 +106,9 @@ std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::Pl
 }  // namespace
 
 Renderer::Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
-                   std::uint64_t seed)
+                   std::uint64_t seed, int scatterings)
     : camera_(makeCamera(scene.camera, scene.image, boundsOf(volumes))),
-      tracer_(groundedScene(scene, boundsOf(volumes)), volumes, majorant),
+      tracer_(groundedScene(scene, boundsOf(volumes)), volumes, majorant, scatterings),
       skyUnit_(tracer_.skyUnit()),
       discUnit_(tracer_.discUnit()),
       background_(scene.image.background),
@@ -106,6 +116,14 @@ Renderer::Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolum
                  tracer_.sunny() ? tracer_.sun().radius() : 0.0),
       seed_(seed),
       fingerprint_(fingerprintOf(groundedScene(scene, boundsOf(volumes)), volumes, camera_, majorant, seed)) {
+    if (scatterings != allScatterings) fingerprint_ = Fingerprint().add(fingerprint_).add(scatterings).value();
+    scene::requireEyeOutsideLamps(scene, camera_.position);
+    for (const scene::Lamp& lamp : scene.lamps) {
+        if (!lamp.shines() || camera_.projection == scene::Projection::orthographic) continue;
+        const glm::dvec3 way = lamp.position - camera_.position;
+        const double distance = glm::length(way);
+        lampCovers_.emplace_back(camera_, way / distance, std::asin(lamp.radius / distance));
+    }
     film_.width = scene.image.width;
     film_.height = scene.image.height;
     pass_.resize(static_cast<std::size_t>(film_.width) * static_cast<std::size_t>(film_.height));
@@ -133,6 +151,13 @@ Renderer::Sample Renderer::sample(int x, int y) const {
         result.sums.transmittance = line.transmittance;
         result.sums.clear = line.clear;
         result.sums.distance = line.distance;
+    }
+    if (lampCovers_.empty()) result.sums.scattered += path.lamps;
+    for (std::size_t lamp = 0; lamp < lampCovers_.size(); ++lamp) {
+        const DiscCover::Pixel* covered = lampCovers_[lamp].find(x, y);
+        if (covered == nullptr) continue;
+        const glm::dvec2 place = covered->sample(random);
+        result.sums.scattered += covered->share * tracer_.lampSeen(camera_.ray(place.x, place.y), lamp);
     }
     if (const DiscCover::Pixel* covered = discCover_.find(x, y)) {
         const glm::dvec2 place = covered->sample(random);

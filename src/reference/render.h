@@ -19,7 +19,7 @@ class Renderer {
     /// `volumes`: one for each cloud of the scene, read in the constructor only.
     /// Errors: InputError for a scene that makes no sense (see makeCamera, PhaseFunction).
     Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
-             std::uint64_t seed);
+             std::uint64_t seed, int scatterings = allScatterings);
 
     /// Adds a sample to every pixel, at a random point of the pixel (a box filter), on all threads of TBB. The sun's
     /// disc is looked at through a random point of what it covers. A pass that is stopped leaves the film as it was and
@@ -52,6 +52,7 @@ class Renderer {
     glm::dvec3 skyUnit_, discUnit_;  ///< AnyTracer's
     bool background_;                ///< whether samples hold the sky and the sun's disc directly behind
     DiscCover discCover_;
+    std::vector<DiscCover> lampCovers_;  ///< of each lamp that shines; empty where lamps are met by chance alone
     std::uint64_t seed_;
     std::uint64_t fingerprint_;
     Film film_;

@@ -26,6 +26,7 @@ class Surfaces {
     explicit Surfaces(const std::vector<scene::Surface>& surfaces) : surfaces_(surfaces) {}
 
     bool empty() const { return surfaces_.empty(); }
+    std::size_t size() const { return surfaces_.size(); }
     const scene::Surface& operator[](std::size_t surface) const { return surfaces_[surface]; }
 
     /// The nearest surface in front of the ray's origin, which lies on the surface `from` (or on none).

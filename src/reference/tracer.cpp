@@ -7,7 +7,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "reference/ground.h"
+#include "reference/haze_of.h"
 #include "scene/fog_bounds.h"
 
 namespace lumulus::reference {
@@ -34,17 +34,6 @@ double sumOf(const Four& v) {
     return v.x + v.y + v.z + v.w;
 }
 
-Fog hazeOf(const scene::Scene& scene, const Environment&) {
-    return Fog(scene.fog);
-}
-
-Air hazeOf(const scene::Scene& scene, const AirSky& sky) {
-    const double ground = groundOf(scene)->height;
-    const auto coefficient = [&](const glm::dvec3& rgb) { return sky.albedo(rgb); };
-    const auto emission = [&](const glm::dvec3& rgb) { return sky.emission(rgb); };
-    return {sky.air(), ground, FogMedia<Four>(scene.fog, coefficient, emission, ground), groundOf(scene)->foot};
-}
-
 /// Russian roulette with this chance of going on; false where the path ends.
 template <typename Light>
 bool survives(Light& throughput, double chance, Random& random) {
@@ -59,12 +48,14 @@ bool survives(Light& throughput, double chance, Random& random) {
 
 template <typename Light>
 BasicPathTracer<Light>::BasicPathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes,
-                                        Majorant majorant)
+                                        Majorant majorant, int scatterings)
     : environment_(scene),
       clouds_(scene.clouds, volumes, majorant),
       haze_(hazeOf(scene, environment_)),
-      surfaces_(surfacesOf(scene)),
-      lamps_(scene.surfaces),
+      surfaces_(withLamps(surfacesOf(scene), scene.lamps)),
+      things_(surfacesOf(scene)),
+      lamps_(withLamps(surfacesOf(scene), scene.lamps), scene.lamps),
+      scatterings_(scatterings),
       inscattering_(scene.fog.inscattering) {
     scene::requireBoundedFog(scene);
     const PhaseFunction* phase = clouds_.narrowestPhase();
@@ -208,7 +199,7 @@ void BasicPathTracer<Light>::branch(const Path& path, std::vector<Path>& branche
 /// Emission of a surface that a path from `vertex` meets by chance, without the share that `lampLight` covers.
 template <typename Light>
 Light BasicPathTracer<Light>::emissionAt(const Vertex& vertex, const Event& event) const {
-    const Light emission = environment_.emission(surfaces_[event.index].emission);
+    const Light emission = environment_.emission(lamps_.emission(event.index, -vertex.ray.direction));
     if (lamps_.empty() || vertex.place == Place::eye) return emission;
     const double chance = density(vertex, vertex.ray.direction);
     const double aimed = lamps_.density(vertex.ray.origin, event.index);
@@ -229,7 +220,8 @@ Light BasicPathTracer<Light>::lampLight(const Path& path, Random& random) const 
     if (!hit || hit->surface != lamp->surface) return Light(0.0);
     double weight = chance / (density(vertex, lamp->direction) + lamp->density);
     weight = clouds_.passed(vertex.voxels, lamp->direction, random, weight, 0.0, hit->metres);
-    Light light = weight * environment_.emission(surfaces_[lamp->surface].emission) * hue(path, lamp->direction);
+    Light light =
+        weight * environment_.emission(lamps_.emission(lamp->surface, -lamp->direction)) * hue(path, lamp->direction);
     if (!haze_.empty()) light *= haze_.transmittance(shadow, hit->metres);
     return light;
 }
@@ -295,7 +287,7 @@ Light BasicPathTracer<Light>::sunTransmission(const Path& path, double strength,
 /// ends.
 template <typename Light>
 bool BasicPathTracer<Light>::step(Path& path, Found& found, std::vector<Path>& branches, Random& random) const {
-    auto& [vertex, throughput, collisions] = path;
+    auto& [vertex, throughput, collisions, scattered] = path;
     const Event event = nextEvent(vertex, throughput, random);
     double share = haze_.empty() ? 1.0 : crossHaze(vertex, event, found.radiance, throughput, random);
     if (event.place == Place::sky) {
@@ -307,7 +299,10 @@ bool BasicPathTracer<Light>::step(Path& path, Found& found, std::vector<Path>& b
         return false;
     }
     if (vertex.place == Place::eye) found.air = event.place == Place::haze && !haze_.isFog(event.index);
-    if (event.place == Place::surface) found.radiance += throughput * emissionAt(vertex, event);
+    const bool lampFirst = vertex.place == Place::eye && event.index >= things_.size();
+    if (event.place == Place::surface)
+        (lampFirst ? found.lamps : found.radiance) += throughput * emissionAt(vertex, event);
+    if (scattered++ == scatterings_) return false;
     arrive(vertex, event);
     if (event.place == Place::cloud) ++collisions;
     if (event.place != Place::haze) share = scatter(vertex, throughput);
@@ -327,7 +322,7 @@ template <typename Light>
 PathSample BasicPathTracer<Light>::sampleOf(const Found& found) const {
     const glm::dvec3 radiance = environment_.rgb(found.radiance);
     if (found.air) return {glm::dvec3(0.0), radiance};
-    return {radiance, environment_.rgb(found.passed)};
+    return {radiance, environment_.rgb(found.passed), environment_.rgb(found.lamps)};
 }
 
 template <typename Light>
@@ -352,7 +347,7 @@ PathSample BasicPathTracer<Light>::trace(const Ray& ray, Random& random) const {
 template <typename Light>
 RayIntegrals BasicPathTracer<Light>::integrate(const Ray& ray) const {
     RayIntegrals result;
-    const auto hit = surfaces_.nearest(ray, Surfaces::none);
+    const auto hit = things_.nearest(ray, Surfaces::none);
     const LineIntegrals line = clouds_.integrate(ray, hit ? hit->metres : endless);
     result.clear = line.transmittance;
     result.distance = line.distance;
@@ -368,7 +363,7 @@ RayIntegrals BasicPathTracer<Light>::integrate(const Ray& ray) const {
 template <typename Light>
 std::optional<double> BasicPathTracer<Light>::front(const Ray& ray) const {
     const std::optional<double> metres = clouds_.front(ray);
-    const auto hit = surfaces_.nearest(ray, Surfaces::none);
+    const auto hit = things_.nearest(ray, Surfaces::none);
     return hit && !(metres && *metres < hit->metres) ? hit->metres : metres;
 }
 
@@ -387,6 +382,15 @@ glm::dvec3 BasicPathTracer<Light>::discSeen(const Ray& ray) const {
         return line.clear *
                environment_.rgb(haze_.transmittance(ray, endless) * environment_.discRadiance(ray.direction));
     }
+}
+
+template <typename Light>
+glm::dvec3 BasicPathTracer<Light>::lampSeen(const Ray& ray, std::size_t lamp) const {
+    const std::optional<SurfaceHit> hit = surfaces_.nearest(ray, Surfaces::none);
+    if (!hit || hit->surface != things_.size() + lamp) return glm::dvec3(0.0);
+    Light light = environment_.emission(lamps_.emission(hit->surface, -ray.direction));
+    if (!haze_.empty()) light *= haze_.transmittance(ray, hit->metres);
+    return clouds_.integrate(ray, hit->metres).transmittance * environment_.rgb(light);
 }
 
 template class BasicPathTracer<glm::dvec3>;

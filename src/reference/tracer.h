@@ -20,12 +20,16 @@
 
 namespace lumulus::reference {
 
+/// Stands for no limit of scatterings.
+inline constexpr int allScatterings = std::numeric_limits<int>::max();
+
 /// One path from the eye.
 struct PathSample {
     glm::dvec3 radiance{0.0};  ///< of all light except the sky and sun directly behind, W·m⁻²·sr⁻¹
     /// Of the sky directly behind, in Environment::unit: where the path met nothing, or met air before anything else.
     glm::dvec3 passed{0.0};
-    bool lost = false;  ///< ended by the limit of collisions
+    glm::dvec3 lamps{0.0};  ///< of lamps of the scene that the path met first, in place of `radiance`
+    bool lost = false;      ///< ended by the limit of collisions
 };
 
 /// Integrals along a ray, without noise.
@@ -66,7 +70,9 @@ class BasicPathTracer {
 
     /// `volumes`: one for each cloud of the scene, read here only. Errors: InputError for a phase function that is
     /// none, and for endless fog in the light of sun and sky.
-    BasicPathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant);
+    /// `scatterings`: what light has been scattered or reflected more often does not count.
+    BasicPathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
+                    int scatterings = allScatterings);
 
     PathSample trace(const Ray& ray, Random& random) const;
 
@@ -78,6 +84,8 @@ class BasicPathTracer {
 
     /// What a ray sees of the sun's disc, over `discUnit`.
     glm::dvec3 discSeen(const Ray& ray) const;
+    /// What a ray sees of the shining lamp of this number, W·m⁻²·sr⁻¹; 0 where it does not meet it first.
+    glm::dvec3 lampSeen(const Ray& ray, std::size_t lamp) const;
     /// What `discSeen` counts in, W·m⁻²·sr⁻¹.
     glm::dvec3 discUnit() const;
 
@@ -103,13 +111,15 @@ class BasicPathTracer {
     struct Path {
         Vertex vertex;
         Light throughput{1.0};
-        int collisions = 0;  ///< with clouds
+        int collisions = 0;   ///< with clouds
+        int scatterings = 0;  ///< so far, reflections included
     };
 
     /// What a path has found.
     struct Found {
         Light radiance{0.0};
         Light passed{0.0};  ///< of the sky directly behind, in Environment::unit
+        Light lamps{0.0};   ///< that the path met first
         bool air = false;   ///< the path met air before anything else
     };
 
@@ -150,8 +160,10 @@ class BasicPathTracer {
     Clouds clouds_;
     std::optional<Aureole> aureole_;
     Haze haze_;
-    Surfaces surfaces_;
+    Surfaces surfaces_;  ///< lamps included
+    Surfaces things_;    ///< without lamps, which layers do not know
     Lamps lamps_;
+    int scatterings_;
     bool inscattering_;  ///< the fog scatters light straight from sun and sky
 };
 

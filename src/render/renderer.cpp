@@ -8,36 +8,18 @@
 #include "base/stopwatch.h"
 #include "frame/background.h"
 #include "frame/view_params.h"
+#include "lamp/lamp_picture.h"
 #include "light/photon/traced_sums.h"
 #include "render/changes.h"
+#include "render/drawable.h"
 #include "render/frame_light.h"
 #include "render/light_fingerprint.h"
 #include "render/picture.h"
 #include "render/renderer_state.h"
 #include "render/renderer_statistics.h"
 #include "render/world_media.h"
-#include "scene/fog_bounds.h"
 
 namespace lumulus {
-
-namespace {
-
-/// The scene, if all that is in it can be drawn.
-const scene::Scene& drawable(const scene::Scene& scene) {
-    if (!scene.surfaces.empty()) {
-        throw InputError("surfaces are for the reference alone", scene.source + ", surface",
-                         "use lumulus reference, or leave them out: --set surface=[]");
-    }
-    // without clouds the scene may be for pictures of other renderers, whose fog may be endless
-    if (!scene.clouds.empty()) scene::requireBoundedFog(scene);
-    if (scene.ground && scene.sky.model == scene::SkyModel::map) {
-        throw InputError("a ground is lit by a constant sky or an atmosphere, not by a map", "ground",
-                         "leave it out (the map has its own), or use lumulus reference");
-    }
-    return scene;
-}
-
-}  // namespace
 
 ViewState::ViewState() : state_(std::make_unique<State>()) {}
 ViewState::ViewState(ViewState&&) noexcept = default;
@@ -207,6 +189,18 @@ void Renderer::State::show(ViewState::State& state, const View& view) const {
     state.spacing = painter ? painter->samplingSpacing(*world, state.camera) : 1;
 }
 
+void Renderer::State::addLamps(LayeredImage& picture, const Camera& seen, const View& view) const {
+    if (seen.projection == scene::Projection::orthographic)
+        throw InputError("lamps are not drawn in orthographic views", "camera.projection",
+                         "use a perspective camera, or leave them out: --set lamp=[]");
+    report("lamps", 0, 1);
+    // a tenth of the photons of a map: each of their events counts, not those in a collector alone
+    const std::int64_t paths = std::min<std::int64_t>(world->photonMap.photons / (view.coarse ? 80 : 10), 100'000'000);
+    lamp::addLamps(picture, seen, drawnTile(view),
+                   {lamps, world->fog, world->lights.ground, static_cast<int>(paths), world->photonMap.seed}, check);
+    report("lamps", 1, 1);
+}
+
 LayeredImage Renderer::draw() {
     return draw(sceneView());
 }
@@ -236,6 +230,7 @@ LayeredImage Renderer::draw(const View& view, ViewState& viewState) {
                        s.check,
                        s.report};
     LayeredImage image = order.picture(viewState.state(), view);
+    if (!s.lamps.empty() && view.image.background) s.addLamps(image, viewState.state().camera, view);
     s.statistics.passes.clear();
     addTimes(s.statistics, s.work.times);
     s.work.times = ofPictureAround;

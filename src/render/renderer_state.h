@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -24,7 +26,9 @@ struct Renderer::State {
           check(options.check),
           ownContext(std::move(device)),
           context(*ownContext),
-          keepRing(options.keepRing) {}
+          keepRing(options.keepRing) {
+        std::ranges::copy_if(scene.lamps, std::back_inserter(lamps), &scene::Lamp::shines);
+    }
 
     scene::Camera camera;  ///< of the scene's view
     scene::Image image;
@@ -38,6 +42,7 @@ struct Renderer::State {
     std::optional<fog::Fog> fog;
     std::optional<fog::LitFog> litFog;
     std::optional<GroundView> ground;
+    std::vector<scene::Lamp> lamps;           ///< that shine
     std::map<std::size_t, glm::dvec3> moved;  ///< ways of the clouds that do not lie where the scene has them [m]
     int sunAllowed = 1;                       ///< reduction of shadow volumes
     int sinceChange = 0;                      ///< generations under the light of now
@@ -50,6 +55,8 @@ struct Renderer::State {
     void makePainters(const scene::Scene& scene);
     /// Sets what the view state keeps of a view.
     void show(ViewState::State& state, const View& view) const;
+    /// Adds the light of lamps to a picture of a view.
+    void addLamps(LayeredImage& picture, const Camera& seen, const View& view) const;
     int raysAcross(const Camera& camera, int most) const;
     void lightChanged();
 };

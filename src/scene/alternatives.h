@@ -10,7 +10,7 @@ namespace lumulus::scene {
 
 /// Pairs of keys of which only one may be given: of the same section (in an array, of the same entry), or of two
 /// sections that are no arrays.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 29> alternatives{{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 31> alternatives{{
     {"sun.direction_to", "sun.azimuth"},
     {"sun.direction_to", "sun.elevation"},
     {"cloud.vdb", "cloud.procedural"},
@@ -40,6 +40,8 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 29> a
     {"moon.phase_angle", "time.utc"},
     {"moon.phase_angle", "time.latitude"},
     {"moon.phase_angle", "time.longitude"},
+    {"lamp.direction", "lamp.target"},
+    {"lamp.power", "lamp.lumens"},
 }};
 
 /// The path of `other` that goes with the path of `own`, both names of the schema: in the same entry where they are of

@@ -29,12 +29,13 @@ may stand for a whole number. NaN and infinity are refused everywhere.
 - `[[fog.media]]` stands once for each medium; without one there is no fog. Keys that a medium's kind does not have are
   errors.
 - `[[surface]]` stands once for each opaque surface, for `lumulus reference` only: `render` refuses them.
+- `[[lamp]]` stands once for each lamp (docs/lamps.md).
 - `--set section.key=value` overrides a key, `--set cloud.0.extinction=0.2` one of the first cloud,
   `--set cloud.veil.extinction=0.2` one of the cloud whose `name` is `veil`, `--set fog.media.0.visibility=500` one of
   the first medium. The index after the last one adds an entry. The value is TOML, or else a bare string:
   `--set draw.mode=march`. An override of one of two keys that exclude each other (`sun.azimuth`, `sun.direction_to`;
   `cloud.0.vdb`, `cloud.0.procedural`) takes the file's other one out; one of `cloud.0.phase.model` or of the `kind` of
-  a medium or surface takes out the parameters that it does not have.
+  a medium, surface or lamp takes out the parameters that it does not have.
 - `--quality` stands below the file: it changes only what the scene leaves out. Where a cloud has flat voxels, it asks
   for three times the photons, at most 6,000,000, and for at least 8 bands and at most 6° (docs/experiments/flat-voxels.md).
 - `[animate]` has the values of keys over the frames of `lumulus render --frames` (docs/sequences.md).

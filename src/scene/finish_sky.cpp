@@ -32,7 +32,8 @@ void checkRead(const Settings& settings, const char* path, bool read, const char
 void finishSky(Draft& draft, const Settings& settings) {
     Sky& sky = draft.scene.sky;
     const bool named = settings.find("sky.model") != nullptr || settings.find("sky.radiance") != nullptr;
-    const bool alone = draft.scene.clouds.empty() && draft.scene.fields.empty() && !draft.scene.fog.media.empty();
+    const bool alone = draft.scene.clouds.empty() && draft.scene.fields.empty() && !draft.scene.fog.media.empty() &&
+                       draft.scene.lamps.empty();
     if (!named && !alone) {  // fog alone is that of `lumulus composite`, whose pictures have their light
         sky.model = SkyModel::atmosphere;
         sky.groundBelowClouds = !draft.scene.ground;

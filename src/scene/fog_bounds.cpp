@@ -36,7 +36,7 @@ bool needsBottom(const FogMedium& medium) {
 
 bool isLit(const Scene& scene) {
     return glm::compMax(scene.sun.irradiance) > 0.0 || scene.sky.model != SkyModel::constant ||
-           glm::compMax(scene.sky.radiance) > 0.0;
+           glm::compMax(scene.sky.radiance) > 0.0 || std::ranges::any_of(scene.lamps, &Lamp::shines);
 }
 
 }  // namespace
@@ -63,9 +63,9 @@ void requireBoundedFog(const Scene& scene) {
         if (isBounded(medium) || !((lit && extinguishes) || glm::compMax(medium.emission) > 0.0)) continue;
         const std::string path = fmt::format("fog.media.{}", i);
         if (needsTop(medium))
-            throw InputError("fog in the light of a sun or a sky needs a top", path + ".top",
+            throw InputError("fog in the light of a sun, a sky or a lamp needs a top", path + ".top",
                              needsBottom(medium) ? "give top and bottom in metres" : "give a height in metres");
-        throw InputError("fog in the light of a sky needs a bottom", path + ".bottom",
+        throw InputError("fog in the light of a sky or a lamp needs a bottom", path + ".bottom",
                          "give a height in metres, or [ground] height");
     }
 }

@@ -50,5 +50,6 @@ std::vector<Key> fieldKeys();
 std::vector<Key> storageKeys();
 std::vector<Key> fogKeys();
 std::vector<Key> mediumKeys();
+std::vector<Key> lampKeys();
 
 }  // namespace lumulus::scene

@@ -58,6 +58,7 @@ Scene readScene(const Sources& from, std::optional<std::size_t>& current) {
     draft.scene.clouds.resize(settings.entries("cloud", draft.scene.fields.empty() ? 1 : 0));
     draft.scene.fog.media.resize(settings.entries("fog.media"));
     draft.scene.surfaces.resize(settings.entries("surface"));
+    draft.scene.lamps.resize(settings.entries("lamp"));
     if (from.quality) applyQuality(draft.scene, *from.quality);
     for (const auto& [path, setting] : settings.all()) {
         draft.entry = setting.entry;

@@ -12,6 +12,7 @@
 
 #include "scene/field.h"
 #include "scene/fog.h"
+#include "scene/lamp.h"
 #include "scene/sky.h"
 #include "scene/surface.h"
 #include "scene/voxels.h"
@@ -180,6 +181,7 @@ struct Scene {
     Draw draw;
     Fog fog;
     std::vector<Surface> surfaces;
+    std::vector<Lamp> lamps;
     std::string source;    ///< file name, for messages and the EXR header
     double seconds = 0.0;  ///< time of the frame: fields have been carried by their wind so long
 

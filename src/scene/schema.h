@@ -49,9 +49,11 @@ struct Draft {
     std::optional<double> azimuth, elevation;  ///< sun, degrees
     std::optional<std::size_t> skyPreset;      ///< of the air, which keys of their own change
     std::optional<double> moonAzimuth, moonElevation;
-    double frame = 0.0, fps = 24.0;                ///< of the animation
-    std::map<std::size_t, std::size_t> aerosols;   ///< by the index of the fog medium
-    std::map<std::size_t, glm::dvec3> fogAlbedos;  ///< the same
+    double frame = 0.0, fps = 24.0;                 ///< of the animation
+    std::map<std::size_t, std::size_t> aerosols;    ///< by the index of the fog medium
+    std::map<std::size_t, glm::dvec3> fogAlbedos;   ///< the same
+    std::map<std::size_t, glm::dvec3> lampTargets;  ///< by the index of the lamp
+    std::map<std::size_t, double> lampLumens, lampTemperatures;
 };
 
 /// One key of the scene file. The parser, its messages and docs/scene-format.md all come from these rows.

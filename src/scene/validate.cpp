@@ -12,6 +12,7 @@
 #include "scene/entry.h"
 #include "scene/file_sequence.h"
 #include "scene/finish_fog.h"
+#include "scene/finish_lamps.h"
 #include "scene/finish_sky.h"
 #include "scene/phase_table_file.h"
 #include "scene/sun_and_moon.h"
@@ -202,6 +203,7 @@ Scene finishScene(Draft draft, const Settings& settings) {
     for (std::size_t i = 0; i < draft.scene.fields.size(); ++i) checkField(draft.scene, i, settings);
     finishFog(draft, settings);
     for (std::size_t i = 0; i < draft.scene.surfaces.size(); ++i) finishSurface(draft.scene.surfaces[i], i, settings);
+    finishLamps(draft, settings);
     draft.scene.seconds = draft.frame / draft.fps;
     return std::move(draft.scene);
 }

@@ -184,7 +184,7 @@ class Fog(FogTest):
                 ("media[0].kind", "cannot change", {"kind": "box"}),
                 ("media[0].center", "center", {"center": [0, 0, 0]}),
                 ("media[0].bottom", "is not below its top", {"bottom": 50, "top": 40}),
-                ("media[0].top", "fog in the light of a sun or a sky needs a top", {"falloff": 0}),
+                ("media[0].top", "fog in the light of a sun, a sky or a lamp needs a top", {"falloff": 0}),
                 ("media[0]", "changes nothing", {})):
             with self.subTest(edit):
                 self.refused(client, "bad_request", where, text, media=[{**zero, **edit}])

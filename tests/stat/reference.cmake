@@ -9,6 +9,7 @@ lumulus_test(reference_fog_layers_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/referen
 lumulus_test(reference_foggy_air_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_foggy_air_test.cpp
              LINK lumulus_reference)
 lumulus_test(reference_surface_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_surface_test.cpp LINK lumulus_reference)
+lumulus_test(reference_lamp_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_lamp_test.cpp LINK lumulus_reference)
 lumulus_test(reference_clouds_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_clouds_test.cpp LINK lumulus_reference)
 lumulus_test(reference_ground_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_ground_test.cpp LINK lumulus_reference)
 lumulus_test(reference_many_clouds_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_many_clouds_test.cpp

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "scene/lamp.h"
+#include "view/camera.h"
+
+namespace lumulus::lamp {
+
+/// What a lamp sends into each direction.
+class Beam {
+  public:
+    explicit Beam(const scene::Lamp& lamp);
+
+    const glm::dvec3& position() const { return lamp_.position; }
+    double radius() const { return lamp_.radius; }
+    const glm::dvec3& power() const { return lamp_.power; }
+
+    /// Radiant intensity in a direction away from the lamp [W/sr].
+    glm::dvec3 intensity(const glm::dvec3& direction) const { return share(direction) * lamp_.power; }
+    /// The same over the lamp's power [1/sr].
+    double share(const glm::dvec3& direction) const;
+
+    /// Adds the distances at which a ray meets the sides of the light, where its intensity has corners [m].
+    void addCorners(const Ray& ray, std::vector<double>& distances) const;
+
+    /// Whether it lights all directions alike.
+    bool isPoint() const { return lamp_.kind == scene::LampKind::point; }
+
+    /// A direction drawn by intensity from numbers in [0, 1); false where these give none and others have to be tried.
+    bool sample(const glm::dvec3& u, glm::dvec3& direction) const;
+
+  private:
+    double spotShare(const glm::dvec3& direction) const;
+    double pyramidShare(const glm::dvec3& direction) const;
+
+    scene::Lamp lamp_;
+    glm::dvec3 level_, rising_;  ///< unit vectors square to the axis; of a pyramid, each square to two sides
+    double inner_, outer_;       ///< angles to the axis, or to a plane through it, between which the light fades
+    double widest_;              ///< largest angle to the axis
+    double perSolidAngle_;       ///< share where it does not fade [1/sr]
+};
+
+}  // namespace lumulus::lamp

@@ -1,0 +1,286 @@
+#include "lamp/lamp_picture.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "frame/sun_cover.h"
+#include "lamp/beam.h"
+#include "lamp/glow.h"
+#include "lamp/haze.h"
+#include "lamp/once_scattered.h"
+
+namespace lumulus::lamp {
+
+namespace {
+
+constexpr double farAway = 1e9;  // metres
+/// Edge of the blocks of pixels in which the light of far lamps is interpolated. They begin at the whole picture's
+/// corner, so that a part of it has the same bits.
+constexpr int block = 8;
+/// Angle between a block and a lamp beyond which its light is interpolated, over the angle of the block's diagonal.
+constexpr double farBlocks = 5.0;
+
+/// A lamp's disc in a pixel.
+struct Disc {
+    float share = 0.0F;  ///< of the pixel
+    double distance = farAway;
+};
+
+/// ∫∫ 1/r over a rectangle, from one corner: the sum over its four corners with alternating signs.
+double inverseOver(double x, double y) {
+    const double ax = std::max(std::abs(x), 1e-12), ay = std::max(std::abs(y), 1e-12);
+    return x * std::asinh(y / ax) + y * std::asinh(x / ay);
+}
+
+class LampPainter {
+  public:
+    LampPainter(const Camera& camera, const Tile& tile, const Surroundings& around)
+        : camera_(camera), tile_(tile), ground_(around.ground), haze_(around.fog, camera.position) {
+        for (const scene::Lamp& lamp : around.lamps)
+            if (lamp.shines() && !(ground_ && lamp.position.y + lamp.radius <= ground_->height))
+                beams_.emplace_back(lamp);
+        discs_.resize(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height));
+        light_.resize(discs_.size(), glm::dvec3(0.0));
+        findDiscs();
+    }
+
+    const std::vector<Beam>& beams() const { return beams_; }
+    const Haze& haze() const { return haze_; }
+
+    void paint(const Check& check, const Glow* glow) {
+        const int firstRow = tile_.y / block, lastRow = (tile_.y + tile_.height - 1) / block;
+        const int firstColumn = tile_.x / block, lastColumn = (tile_.x + tile_.width - 1) / block;
+        tbb::parallel_for(firstRow, lastRow + 1, [&](int row) {
+            for (int column = firstColumn; column <= lastColumn; ++column) {
+                check();
+                paintBlock({column * block, row * block}, glow);
+            }
+        });
+    }
+
+    void addTo(LayeredImage& image) const {
+        const std::array<float*, 3> colours{image.layer("R").data(), image.layer("G").data(), image.layer("B").data()};
+        for (std::size_t i = 0; i < light_.size(); ++i) {
+            const double hidden = static_cast<double>(discs_[i].share);
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double before = static_cast<double>(colours[c][i]);
+                colours[c][i] = static_cast<float>(before * (1.0 - hidden) + light_[i][static_cast<glm::length_t>(c)]);
+            }
+        }
+    }
+
+  private:
+    std::size_t indexOf(const glm::ivec2& pixel) const {
+        return static_cast<std::size_t>(pixel.y - tile_.y) * static_cast<std::size_t>(tile_.width) +
+               static_cast<std::size_t>(pixel.x - tile_.x);
+    }
+    Ray rayOf(const glm::dvec2& place) const { return camera_.ray(place.x, place.y); }
+
+    double endOf(const Ray& ray) const {
+        if (!ground_ || !(ray.direction.y < 0.0)) return farAway;
+        return std::min(farAway, std::max(0.0, ray.origin.y - ground_->height) / -ray.direction.y);
+    }
+
+    /// The end of the ray of a pixel of the tile: a lamp's disc ends it where it covers most of the pixel.
+    double endIn(const glm::ivec2& pixel, const Ray& ray) const {
+        const glm::ivec2 last(tile_.x + tile_.width - 1, tile_.y + tile_.height - 1);
+        const bool inside = glm::clamp(pixel, glm::ivec2(tile_.x, tile_.y), last) == pixel;
+        const bool covered = inside && discs_[indexOf(pixel)].share > 0.5F;
+        return std::min(endOf(ray), covered ? discs_[indexOf(pixel)].distance : farAway);
+    }
+
+    void findDiscs() {
+        for (const Beam& beam : beams_) {
+            const glm::dvec3 way = beam.position() - camera_.position;
+            const double distance = glm::length(way);
+            if (distance <= beam.radius() || endOf({camera_.position, way / distance}) < distance - beam.radius())
+                continue;
+            const glm::dvec3 direction = way / distance;
+            const double angle = std::asin(std::min(1.0, beam.radius() / distance));
+            const glm::dvec3 radiance = beam.intensity(-direction) /
+                                        (std::numbers::pi * beam.radius() * beam.radius()) *
+                                        glm::exp(-haze_.depth({camera_.position, direction}, distance - beam.radius()));
+            for (const frame::CoveredPixel& seen : frame::sunCover(camera_, tile_, direction, angle)) {
+                Disc& disc = discs_[indexOf(seen.pixel)];
+                light_[indexOf(seen.pixel)] += seen.share * radiance;
+                disc.share = std::min(1.0F, disc.share + static_cast<float>(seen.share));
+                disc.distance = std::min(disc.distance, distance - beam.radius());
+            }
+        }
+    }
+
+    /// What the ground reflects of lamps where a ray meets it, as it is seen [W/(m² sr)].
+    glm::dvec3 groundSeen(const Ray& ray, double metres) const {
+        const glm::dvec3 point = ray.origin + metres * ray.direction;
+        glm::dvec3 irradiance(0.0);
+        for (const Beam& beam : beams_) {
+            const glm::dvec3 way = beam.position() - point;
+            const double distance = std::max(glm::length(way), beam.radius());
+            if (!(way.y > 0.0)) continue;
+            const glm::dvec3 direction = way / distance, intensity = beam.intensity(-direction);
+            if (intensity == glm::dvec3(0.0)) continue;
+            irradiance += intensity * (direction.y / (distance * distance)) *
+                          (haze_.isClear() ? glm::dvec3(1.0) : glm::exp(-haze_.depth({point, direction}, distance)));
+        }
+        return ground_->albedo * std::numbers::inv_pi * irradiance * glm::exp(-haze_.depth(ray, metres));
+    }
+
+    glm::dvec3 groundIn(const glm::ivec2& pixel, int rays) const {
+        glm::dvec3 sum(0.0);
+        for (int i = 0; i < rays * rays; ++i) {
+            const Ray ray = rayOf(glm::dvec2(pixel) + (glm::dvec2(i % rays, i / rays) + 0.5) / double(rays));
+            const double metres = endOf(ray);
+            if (metres < farAway) sum += groundSeen(ray, metres);
+        }
+        return sum / static_cast<double>(rays * rays);
+    }
+
+    /// The distance at which rays of a square of the picture pass a lamp: one over the mean of its inverse, to which
+    /// light that is scattered near the lamp is proportional. `edge`: of the square around `place`, pixels.
+    double missIn(const glm::dvec2& place, double edge, const Ray& ray, const glm::dvec3& lamp) const {
+        const double miss = missOf(ray, lamp), along = glm::dot(lamp - ray.origin, ray.direction);
+        if (along <= 0.0) return miss;
+        const double half = 0.5 * edge;
+        const auto reach = [&](const glm::dvec2& way) {
+            return (rayOf(place + half * way).direction - rayOf(place - half * way).direction) * along;
+        };
+        const glm::dvec3 right = reach({1.0, 0.0}), down = reach({0.0, 1.0});
+        const double width = glm::length(right), height = glm::length(down);
+        if (miss > 8.0 * std::max(width, height)) return miss;
+        const glm::dvec3 off = lamp - ray.origin - along * ray.direction;
+        const double x = glm::dot(off, right) / width, y = glm::dot(off, down) / height;
+        const double x0 = x - 0.5 * width, x1 = x + 0.5 * width, y0 = y - 0.5 * height, y1 = y + 0.5 * height;
+        const double mean =
+            (inverseOver(x1, y1) - inverseOver(x0, y1) - inverseOver(x1, y0) + inverseOver(x0, y0)) / (width * height);
+        return 1.0 / mean;
+    }
+
+    /// Light of a beam that is scattered, seen at the corners of the pixels of a block.
+    struct BeamCorners {
+        const Beam* beam;
+        std::array<glm::dvec3, (block + 1) * (block + 1)> values;
+    };
+
+    std::vector<BeamCorners> cornersOf(const glm::ivec2& first, const std::vector<const Beam*>& beams) const {
+        std::vector<BeamCorners> all;
+        for (const Beam* beam : beams) {
+            BeamCorners& corners = all.emplace_back(BeamCorners{beam, {}});
+            for (int i = 0; i < (block + 1) * (block + 1); ++i)
+                corners.values[static_cast<std::size_t>(i)] =
+                    beamAt(*beam, glm::dvec2(first + glm::ivec2(i % (block + 1), i / (block + 1))), first, 1.0);
+        }
+        return all;
+    }
+
+    glm::dvec3 beamAt(const Beam& beam, const glm::dvec2& place, const glm::ivec2& pixel, double edge) const {
+        const Ray ray = rayOf(place);
+        return onceScattered(haze_, beam, ray, {0.0, endIn(pixel, ray)}, missIn(place, edge, ray, beam.position()));
+    }
+
+    /// The mean over a pixel: by more rays where its corners and its middle differ, at the sides of a beam.
+    glm::dvec3 beamIn(const glm::ivec2& pixel, const glm::ivec2& within, const BeamCorners& corners) const {
+        const auto at = static_cast<std::size_t>(within.y * (block + 1) + within.x);
+        const glm::dvec3 middle = beamAt(*corners.beam, glm::dvec2(pixel) + 0.5, pixel, 1.0);
+        glm::dvec3 least = middle, most = middle, sum(0.0);
+        for (const std::size_t corner : {at, at + 1, at + block + 1, at + block + 2}) {
+            least = glm::min(least, corners.values[corner]);
+            most = glm::max(most, corners.values[corner]);
+            sum += 0.25 * corners.values[corner];
+        }
+        if (most.x + most.y + most.z == 0.0) return middle;
+        if (glm::all(glm::lessThan(most - least, 0.2 * most + 1e-300))) return (2.0 * middle + sum) / 3.0;
+        constexpr int rays = 6;
+        sum = glm::dvec3(0.0);
+        for (int i = 0; i < rays * rays; ++i)
+            sum += beamAt(*corners.beam, glm::dvec2(pixel) + (glm::dvec2(i % rays, i / rays) + 0.5) / double(rays),
+                          pixel, 1.0 / rays);
+        return sum / static_cast<double>(rays * rays);
+    }
+
+    void paintBlock(const glm::ivec2& first, const Glow* glow) {
+        std::array<Ray, 4> rays;
+        std::array<double, 4> ends{};
+        for (std::size_t k = 0; k < 4; ++k) {
+            rays[k] = rayOf(glm::dvec2(first) + 0.5 + double(block) * glm::dvec2(k % 2, k / 2));
+            ends[k] = endOf(rays[k]);
+        }
+        const auto grounded = std::ranges::count_if(ends, [](double end) { return end < farAway; });
+        const bool mixed = grounded != 0 && grounded != 4;
+        std::vector<const Beam*> near, beams;
+        std::array<glm::dvec3, 4> far{};
+        if (!haze_.isClear()) {
+            for (const Beam& beam : beams_) {
+                if (mixed || !beam.isPoint() || !isFar(beam, rays)) {
+                    (beam.isPoint() ? near : beams).push_back(&beam);
+                    continue;
+                }
+                for (std::size_t k = 0; k < 4; ++k)
+                    far[k] += onceScattered(haze_, beam, rays[k], {0.0, ends[k]}, missOf(rays[k], beam.position()));
+            }
+        }
+        const std::vector<BeamCorners> corners = cornersOf(first, beams);
+        for (int i = 0; i < block * block; ++i) {
+            const glm::ivec2 within(i % block, i / block), pixel = first + within;
+            if (pixel.x < tile_.x || pixel.y < tile_.y || pixel.x >= tile_.x + tile_.width ||
+                pixel.y >= tile_.y + tile_.height)
+                continue;
+            const glm::dvec2 share = glm::dvec2(within) / double(block);
+            glm::dvec3& light = light_[indexOf(pixel)];
+            light += glm::mix(glm::mix(far[0], far[1], share.x), glm::mix(far[2], far[3], share.x), share.y);
+            light += paintPixel(pixel, near, mixed, glow);
+            for (const BeamCorners& beam : corners) light += beamIn(pixel, within, beam);
+        }
+    }
+
+    /// Whether the light of a lamp that the fog scatters is nearly linear over a block.
+    static bool isFar(const Beam& beam, const std::array<Ray, 4>& rays) {
+        const double diagonal = glm::length(rays[3].direction - rays[0].direction);
+        const auto angleTo = [&](const Ray& ray) {
+            return glm::length(glm::normalize(beam.position() - ray.origin) - ray.direction);
+        };
+        return std::ranges::all_of(rays, [&](const Ray& ray) { return angleTo(ray) > farBlocks * diagonal; });
+    }
+
+    glm::dvec3 paintPixel(const glm::ivec2& pixel, const std::vector<const Beam*>& near, bool mixed,
+                          const Glow* glow) const {
+        const Ray ray = rayOf(glm::dvec2(pixel) + 0.5);
+        const Disc& disc = discs_[indexOf(pixel)];
+        const double end = endIn(pixel, ray);
+        glm::dvec3 light(0.0);
+        for (const Beam* beam : near)
+            light += onceScattered(haze_, *beam, ray, {0.0, end},
+                                   missIn(glm::dvec2(pixel) + 0.5, 1.0, ray, beam->position()));
+        if (glow != nullptr) light += glow->at(glm::dvec2(pixel) + 0.5);
+        if (ground_) light += (1.0 - static_cast<double>(disc.share)) * groundIn(pixel, mixed ? 4 : 1);
+        return light;
+    }
+
+    Camera camera_;
+    Tile tile_;
+    std::optional<scene::Ground> ground_;
+    Haze haze_;
+    std::vector<Beam> beams_;
+    std::vector<Disc> discs_;
+    std::vector<glm::dvec3> light_;
+};
+
+}  // namespace
+
+void addLamps(LayeredImage& image, const Camera& camera, const Tile& tile, const Surroundings& around,
+              const Check& check) {
+    LampPainter painter(camera, tile, around);
+    if (painter.beams().empty()) return;
+    std::optional<Glow> glow;
+    if (around.paths > 0 && !painter.haze().isClear())
+        glow.emplace(camera, painter.haze(), painter.beams(), around.ground,
+                     Glow::Paths{static_cast<std::uint64_t>(around.paths), around.seed}, check);
+    painter.paint(check, glow ? &*glow : nullptr);
+    painter.addTo(image);
+}
+
+}  // namespace lumulus::lamp

@@ -1,0 +1,176 @@
+#include "lamp/light_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "shared/rng.h"
+
+namespace lumulus::lamp {
+
+namespace {
+
+using std::numbers::pi;
+
+/// Events after which a path ends.
+constexpr int mostEvents = 300;
+/// Share of its first weight below which a path goes on by chance.
+constexpr double thin = 0.05;
+/// Nearer to the eye than this share of the mean free path an event does not grow any more.
+constexpr double nearShare = 0.03;
+constexpr double farAway = 1e6;  // metres
+
+double sumOf(const glm::dvec3& v) {
+    return v.x + v.y + v.z;
+}
+
+/// Vectors square to a unit vector and to each other.
+void squareTo(const glm::dvec3& axis, glm::dvec3& one, glm::dvec3& other) {
+    one = glm::normalize(
+        glm::cross(axis, std::abs(axis.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0)));
+    other = glm::cross(axis, one);
+}
+
+glm::dvec3 around(const glm::dvec3& axis, double cosine, double u) {
+    glm::dvec3 one, other;
+    squareTo(axis, one, other);
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine)), azimuth = 2.0 * pi * u;
+    return cosine * axis + sine * (std::cos(azimuth) * one + std::sin(azimuth) * other);
+}
+
+/// Henyey–Greenstein.
+double cosineOf(double g, double u) {
+    if (std::abs(g) < 1e-3) return 2.0 * u - 1.0;
+    const double root = (1.0 - g * g) / (1.0 - g + 2.0 * g * u);
+    return std::clamp((1.0 + g * g - root * root) / (2.0 * g), -1.0, 1.0);
+}
+
+}  // namespace
+
+struct LightPaths::Walk {
+    glm::uvec4 key{0};
+    Ray ray;
+    glm::dvec3 weight{0.0};
+    double first = 0.0;  ///< sum of the weight at the lamp
+    int events = 0;
+    bool onGround = false;
+
+    glm::dvec4 numbers() {
+        ++key.y;
+        return glm::dvec4(shared::rngUniform4(key)) + 0x1p-25;
+    }
+};
+
+LightPaths::LightPaths(const Haze& haze, std::span<const Beam> beams, const std::optional<scene::Ground>& ground,
+                       std::uint64_t count, std::uint64_t seed)
+    : haze_(haze), beams_(beams), ground_(ground), count_(count), seed_(seed) {
+    double sum = 0.0;
+    for (const Beam& beam : beams) upTo_.push_back(sum += sumOf(beam.power()));
+    for (double& each : upTo_) each /= sum;
+}
+
+/// Each lamp has a share of the paths by its power, one after the other.
+bool LightPaths::start(Walk& walk, std::uint64_t path) const {
+    const auto low = [](std::uint64_t x) { return static_cast<std::uint32_t>(x); };
+    walk.key = {low(path), 0U, 0x1A3BU, shared::rngStream(low(seed_), low(seed_ >> 32U), low(path >> 32U))};
+    const double share = (static_cast<double>(path) + 0.5) / static_cast<double>(count_);
+    const auto lamp =
+        std::min(static_cast<std::size_t>(std::ranges::lower_bound(upTo_, share) - upTo_.begin()), beams_.size() - 1);
+    const Beam& beam = beams_[lamp];
+    const double chance = upTo_[lamp] - (lamp > 0 ? upTo_[lamp - 1] : 0.0);
+    walk.weight = beam.power() / (chance * static_cast<double>(count_));
+    walk.first = sumOf(walk.weight);
+    walk.ray.origin = beam.position();
+    for (int tries = 0; tries < 1000; ++tries)
+        if (beam.sample(glm::dvec3(walk.numbers()), walk.ray.direction))
+            return !ground_ || beam.position().y > ground_->height;
+    return false;
+}
+
+/// Takes the path to its next event. Free paths are drawn for one channel, chosen by the weight, and count by the mean
+/// density of that choice.
+bool LightPaths::step(Walk& walk) const {
+    const glm::dvec4 u = walk.numbers();
+    const glm::dvec3 chances = walk.weight / sumOf(walk.weight);
+    const int channel = u.x < chances.x ? 0 : (u.x < chances.x + chances.y ? 1 : 2);
+    const double wanted = -std::log(1.0 - std::min(u.y, 1.0 - 1e-9));
+    double low = 0.0, high = farAway;
+    const bool falls = ground_ && walk.ray.direction.y < 0.0;
+    if (falls) high = std::min(high, (walk.ray.origin.y - ground_->height) / -walk.ray.direction.y);
+    const bool grounded = falls && high < farAway;
+    if (haze_.depth(walk.ray, high)[channel] <= wanted) return grounded && meetGround(walk, high, chances);
+    double metres = 0.5 * high;
+    const double here = haze_.extinction(walk.ray.origin)[channel];
+    if (here > 0.0) metres = std::min(metres, wanted / here);
+    for (int i = 0; i < 40; ++i) {
+        const double miss = haze_.depth(walk.ray, metres)[channel] - wanted;
+        if (std::abs(miss) < 1e-5) break;
+        (miss > 0.0 ? high : low) = metres;
+        const double slope = haze_.extinction(walk.ray.origin + metres * walk.ray.direction)[channel];
+        const double next = slope > 0.0 ? metres - miss / slope : low;
+        metres = next > low && next < high ? next : 0.5 * (low + high);
+    }
+    const glm::dvec3 point = walk.ray.origin + metres * walk.ray.direction, extinction = haze_.extinction(point);
+    const glm::dvec3 passed = glm::exp(-haze_.depth(walk.ray, metres));
+    const double density = glm::dot(chances, extinction * passed);
+    if (!(density > 0.0)) return false;
+    walk.weight *= haze_.scattering(point) * passed / density;
+    walk.ray.origin = point;
+    walk.onGround = false;
+    return true;
+}
+
+bool LightPaths::meetGround(Walk& walk, double metres, const glm::dvec3& chances) const {
+    const glm::dvec3 passed = glm::exp(-haze_.depth(walk.ray, metres));
+    const double density = glm::dot(chances, passed);
+    if (!(density > 0.0)) return false;
+    walk.weight *= ground_->albedo * passed / density;
+    walk.ray.origin += metres * walk.ray.direction;
+    walk.ray.origin.y = ground_->height;
+    walk.onGround = true;
+    return true;
+}
+
+void LightPaths::show(const Walk& walk, const glm::dvec3& eye, const Seen& seen) const {
+    const glm::dvec3 way = eye - walk.ray.origin;
+    const double distance = glm::length(way);
+    if (!(distance > 0.0)) return;
+    const glm::dvec3 direction = way / distance;
+    glm::dvec3 response(0.0);
+    if (walk.onGround) {
+        response = glm::dvec3(std::max(0.0, direction.y) / pi);
+    } else {
+        const double cosine = glm::dot(walk.ray.direction, direction);
+        response =
+            haze_.turned(walk.ray.origin, cosine) / glm::max(haze_.scattering(walk.ray.origin), glm::dvec3(1e-300));
+    }
+    const glm::dvec3 extinction = haze_.extinction(eye);
+    const double free = sumOf(extinction) > 0.0 ? 3.0 / sumOf(extinction) : 0.0;
+    const double least = nearShare * free;
+    const glm::dvec3 passed = glm::exp(-haze_.depth({eye, -direction}, distance));
+    seen(-direction, walk.weight * response * passed / (distance * distance + least * least));
+}
+
+void LightPaths::turn(Walk& walk) const {
+    const glm::dvec4 u = walk.numbers();
+    walk.ray.direction = walk.onGround
+                             ? around({0.0, 1.0, 0.0}, std::sqrt(u.x), u.y)
+                             : around(walk.ray.direction, cosineOf(haze_.meanCosine(walk.ray.origin, u.z), u.x), u.y);
+}
+
+void LightPaths::trace(std::uint64_t path, const glm::dvec3& eye, const Seen& seen) const {
+    Walk walk;
+    if (!start(walk, path)) return;
+    while (walk.events < mostEvents && step(walk)) {
+        if (++walk.events > 1) show(walk, eye, seen);
+        const double left = sumOf(walk.weight) / walk.first;
+        if (!(left > 0.0)) return;
+        if (left < thin) {
+            if (walk.numbers().x > left / thin) return;
+            walk.weight *= thin / left;
+        }
+        turn(walk);
+    }
+}
+
+}  // namespace lumulus::lamp

@@ -1,0 +1,40 @@
+#include "render/drawable.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "scene/fog_bounds.h"
+
+namespace lumulus {
+
+namespace {
+
+/// Refuses lamps among what they do not light yet.
+void requireDrawableLamps(const scene::Scene& scene) {
+    if (std::ranges::none_of(scene.lamps, &scene::Lamp::shines)) return;
+    constexpr const char* mend = "use lumulus reference, or leave them out: --set lamp=[]";
+    if (!scene.clouds.empty()) throw InputError("lamps do not light clouds yet", scene.source + ", lamp", mend);
+    if (scene.sky.model == scene::SkyModel::atmosphere)
+        throw InputError("lamps are not drawn in the air of an atmosphere yet", scene.source + ", lamp",
+                         "write sky.model = \"constant\", or use lumulus reference");
+    scene::requireBoundedFog(scene);
+}
+
+}  // namespace
+
+const scene::Scene& drawable(const scene::Scene& scene) {
+    if (!scene.surfaces.empty()) {
+        throw InputError("surfaces are for the reference alone", scene.source + ", surface",
+                         "use lumulus reference, or leave them out: --set surface=[]");
+    }
+    requireDrawableLamps(scene);
+    // without clouds the scene may be for pictures of other renderers, whose fog may be endless
+    if (!scene.clouds.empty()) scene::requireBoundedFog(scene);
+    if (scene.ground && scene.sky.model == scene::SkyModel::map) {
+        throw InputError("a ground is lit by a constant sky or an atmosphere, not by a map", "ground",
+                         "leave it out (the map has its own), or use lumulus reference");
+    }
+    return scene;
+}
+
+}  // namespace lumulus

@@ -1,0 +1,2 @@
+lumulus_test(lamp_picture_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/lamp_picture_test.cpp
+             LINK lumulus_lamp lumulus_reference)

@@ -1,0 +1,183 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <string>
+
+#include "base/interrupt.h"
+#include "lamp/lamp_picture.h"
+#include "reference/render.h"
+#include "scene/load.h"
+#include "view/camera.h"
+
+// Pictures of lamps in fog against those of the path tracer.
+namespace lumulus {
+namespace {
+
+const std::string around = R"(
+cloud = []
+[image]
+width = 48
+height = 32
+[camera]
+position = [0, 10, 0]
+target = [0, 10, -100]
+vertical_fov = 50
+[sun]
+irradiance = 0.0
+[sky]
+model = "constant"
+radiance = 0.0
+[ground]
+height = 0.0
+albedo = 0.2
+[[fog.media]]
+scattering = [0.008, 0.01, 0.012]
+absorption = 0.001
+g = 0.6
+bottom = 0
+top = 60
+)";
+
+const std::string pointLamp = R"(
+[[lamp]]
+position = [6, 14, -60]
+radius = 0.3
+power = [800, 700, 500]
+)";
+
+const std::string beams = R"(
+[[lamp]]
+kind = "spot"
+position = [-30, 12, -80]
+target = [20, 25, -65]
+angle = 60
+softness = 0.4
+radius = 0.8
+power = 800
+[[lamp]]
+kind = "pyramid"
+position = [10, 20, -60]
+target = [5, 0, -70]
+angle = 50
+radius = 0.8
+power = [100, 300, 600]
+)";
+
+LayeredImage drawn(const scene::Scene& scene, int paths) {
+    LayeredImage image;
+    image.width = scene.image.width;
+    image.height = scene.image.height;
+    for (const char* name : {"R", "G", "B"}) image.layer(name);
+    const Camera camera = makeCamera(scene.camera, scene.image, {});
+    lamp::addLamps(image, camera, {0, 0, image.width, image.height}, {scene.lamps, scene.fog, scene.ground, paths, 1},
+                   stopIfInterrupted);
+    return image;
+}
+
+LayeredImage truth(const scene::Scene& scene, int samples, int scatterings) {
+    reference::Renderer renderer(scene, {}, reference::Majorant::global, 5, scatterings);
+    for (int i = 0; i < samples; ++i) renderer.pass([](std::uint64_t) { return true; });
+    return renderer.picture();
+}
+
+struct Distance {
+    double bias = 0.0;      ///< of the sum of all pixels
+    double relative = 0.0;  ///< relMSE, without the reference's own noise
+};
+
+Distance distanceOf(const LayeredImage& image, const LayeredImage& reference) {
+    double sum = 0.0, expected = 0.0, error = 0.0;
+    const double epsilon = 1e-2;
+    for (const char* name : {"R", "G", "B"}) {
+        const std::vector<float>& found = image.layers.at(name);
+        const std::vector<float>& right = reference.layers.at(name);
+        const std::vector<float>& variance = reference.layers.at(std::string("variance.") + name);
+        double mean = 0.0;
+        for (const float value : right) mean += static_cast<double>(value);
+        mean /= static_cast<double>(right.size());
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const auto f = static_cast<double>(found[i]), r = static_cast<double>(right[i]);
+            sum += f;
+            expected += r;
+            error += ((f - r) * (f - r) - static_cast<double>(variance[i])) / (r * r + epsilon * mean * mean);
+        }
+    }
+    return {sum / expected - 1.0, error / (3.0 * static_cast<double>(image.pixels()))};
+}
+
+Distance compared(const std::string& lamps, int samples, int scatterings, int paths) {
+    const scene::Scene scene = scene::parseScene(around + lamps, "x.toml");
+    const Distance found = distanceOf(drawn(scene, paths), truth(scene, samples, scatterings));
+    std::cout << "bias " << found.bias << ", relMSE " << found.relative << "\n";
+    return found;
+}
+
+TEST(LampPicture, APointScattersOnce) {
+    const Distance found = compared(pointLamp, 400, 1, 0);
+    EXPECT_LT(std::abs(found.bias), 0.01);
+    EXPECT_LT(std::abs(found.relative), 1e-4);
+}
+
+/// Of the error, most is noise of the reference beside the lamps, which few of its paths meet.
+TEST(LampPicture, BeamsScatterOnce) {
+    const Distance found = compared(beams, 2000, 1, 0);
+    EXPECT_LT(std::abs(found.bias), 0.03);
+    EXPECT_LT(std::abs(found.relative), 3e-2);
+}
+
+TEST(LampPicture, APointWithAllScatterings) {
+    const Distance found = compared(pointLamp, 1500, reference::allScatterings, 2'000'000);
+    EXPECT_LT(std::abs(found.bias), 0.02);
+    EXPECT_LT(std::abs(found.relative), 1e-2);
+}
+
+/// What should not be near each other still has finite light: a lamp on the ground, one in it, the eye within a beam of
+/// half of all directions, a lamp behind the eye.
+TEST(LampPicture, IsFiniteEverywhere) {
+    const std::string lamps = R"(
+[[lamp]]
+position = [3, 0, -20]
+power = 10
+[[lamp]]
+position = [0, -5, -20]
+power = 1000
+[[lamp]]
+kind = "spot"
+position = [0, 10, -0.2]
+direction = [0, 0, 1]
+angle = 180
+power = 1000
+[[lamp]]
+kind = "pyramid"
+position = [0, 10, 2]
+direction = [0, 1, 0]
+angle = 180
+softness = 1
+power = 10
+)";
+    const scene::Scene scene = scene::parseScene(around + lamps, "x.toml");
+    const LayeredImage image = drawn(scene, 2000);
+    for (const char* name : {"R", "G", "B"})
+        for (const float value : image.layers.at(name)) ASSERT_TRUE(std::isfinite(value) && value >= 0.0F);
+}
+
+/// A part of a picture has the bits of the whole.
+TEST(LampPicture, PartsHaveTheSameBits) {
+    const scene::Scene scene = scene::parseScene(around + pointLamp + beams, "x.toml");
+    const LayeredImage whole = drawn(scene, 2000);
+    LayeredImage part;
+    part.width = 13;
+    part.height = 9;
+    for (const char* name : {"R", "G", "B"}) part.layer(name);
+    lamp::addLamps(part, makeCamera(scene.camera, scene.image, {}), {21, 11, part.width, part.height},
+                   {scene.lamps, scene.fog, scene.ground, 2000, 1}, stopIfInterrupted);
+    for (int y = 0; y < part.height; ++y)
+        for (int x = 0; x < part.width; ++x)
+            ASSERT_EQ(part.layers.at("G")[static_cast<std::size_t>(y * part.width + x)],
+                      whole.layers.at("G")[static_cast<std::size_t>((y + 11) * whole.width + x + 21)])
+                << x << ", " << y;
+}
+
+}  // namespace
+}  // namespace lumulus

@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "lamp/beam.h"
+#include "lamp/haze.h"
+#include "lamp/once_scattered.h"
+
+// Light of lamps in fog against plain sums over many steps.
+namespace lumulus::lamp {
+namespace {
+
+using glm::dvec3;
+using std::numbers::pi;
+
+scene::Lamp lampOf(scene::LampKind kind, double angle, double softness) {
+    scene::Lamp lamp;
+    lamp.kind = kind;
+    lamp.position = {3.0, 8.0, -40.0};
+    lamp.direction = glm::normalize(dvec3(-0.2, -0.9, 0.4));
+    lamp.angle = angle;
+    lamp.softness = softness;
+    lamp.radius = 1e-4;
+    lamp.power = {300.0, 200.0, 100.0};
+    return lamp;
+}
+
+scene::Fog fogOf(double g) {
+    scene::Fog fog;
+    scene::FogMedium& layer = fog.media.emplace_back();
+    layer.scattering = {0.02, 0.03, 0.04};
+    layer.absorption = dvec3(0.005);
+    layer.g = g;
+    layer.bottom = -2.0;
+    layer.top = 20.0;
+    scene::FogMedium& ball = fog.media.emplace_back();
+    ball.kind = scene::MediumKind::ellipsoid;
+    ball.center = {0.0, 5.0, -60.0};
+    ball.halfSize = dvec3(20.0, 10.0, 15.0);
+    ball.scattering = dvec3(0.03);
+    ball.g = 0.3;
+    return fog;
+}
+
+TEST(Beam, HasItsPowerOverAllDirections) {
+    for (const auto kind : {scene::LampKind::point, scene::LampKind::spot, scene::LampKind::pyramid}) {
+        for (const double softness : {0.0, 0.5, 1.0}) {
+            for (const double angle : {30.0, 180.0}) {
+                const Beam beam(lampOf(kind, angle, softness));
+                constexpr int count = 400'000;
+                double sum = 0.0;
+                for (int i = 0; i < count; ++i) {
+                    const double z = 1.0 - (2.0 * i + 1.0) / count, across = std::sqrt(1.0 - z * z);
+                    const double azimuth = 2.399963229728653 * i;  // the golden angle
+                    sum += beam.share({across * std::cos(azimuth), z, across * std::sin(azimuth)});
+                }
+                EXPECT_NEAR(sum * 4.0 * pi / count, 1.0, 3e-3) << angle << ", " << softness;
+            }
+        }
+    }
+}
+
+/// Directions that are drawn have the mean of the intensity.
+TEST(Beam, SamplesFollowTheIntensity) {
+    const Beam beam(lampOf(scene::LampKind::spot, 80.0, 0.7));
+    constexpr int across = 160;
+    double drawn = 0.0, taken = 0.0;
+    for (int i = 0; i < across * across; ++i) {
+        dvec3 direction;
+        const dvec3 u((i % across + 0.5) / across, (i / across + 0.5) / across, std::fmod(0.5 + i * 0.618034, 1.0));
+        if (!beam.sample(u, direction)) continue;
+        ++taken;
+        drawn += glm::dot(direction, lampOf(scene::LampKind::spot, 80.0, 0.7).direction);
+    }
+    double expected = 0.0;
+    constexpr int steps = 100'000;
+    const double half = 40.0 * pi / 180.0;
+    for (int i = 0; i < steps; ++i) {
+        const double angle = (i + 0.5) / steps * half;
+        const dvec3 axis = lampOf(scene::LampKind::spot, 80.0, 0.7).direction;
+        const dvec3 side = glm::normalize(glm::cross(axis, dvec3(1.0, 0.0, 0.0)));
+        expected += 2.0 * pi * std::sin(angle) * std::cos(angle) *
+                    beam.share(std::cos(angle) * axis + std::sin(angle) * side) * half / steps;
+    }
+    EXPECT_NEAR(drawn / taken, expected, 2e-3);
+}
+
+/// ∫ Σ σs p(γ) I e^(−τ) / d² dt by even steps in the angle at the lamp.
+dvec3 plainSum(const Haze& haze, const Beam& beam, const Ray& ray, const Part& part) {
+    constexpr int steps = 40'000;
+    const double nearest = glm::dot(beam.position() - ray.origin, ray.direction), miss = missOf(ray, beam.position());
+    const double first = std::atan2(part.begin - nearest, miss), last = std::atan2(part.end - nearest, miss);
+    dvec3 sum(0.0);
+    for (int i = 0; i < steps; ++i) {
+        const double distance = nearest + miss * std::tan(first + (i + 0.5) / steps * (last - first));
+        const dvec3 point = ray.origin + distance * ray.direction, way = point - beam.position();
+        const double away = glm::length(way);
+        const dvec3 travel = way / away;
+        sum += haze.turned(point, -glm::dot(travel, ray.direction)) * beam.intensity(travel) *
+               glm::exp(-haze.depth(ray, distance) - haze.depth({point, -travel}, away)) / miss;
+    }
+    return sum * ((last - first) / steps);
+}
+
+TEST(OnceScattered, IsThePlainSum) {
+    const Ray rays[] = {{dvec3(0.0, 5.0, 0.0), glm::normalize(dvec3(0.02, 0.05, -1.0))},
+                        {dvec3(0.0, 5.0, 0.0), glm::normalize(dvec3(0.07, 0.07, -1.0))},
+                        {dvec3(0.0, 5.0, 0.0), glm::normalize(dvec3(-0.9, 0.1, -1.0))},
+                        {dvec3(0.0, 5.0, 0.0), glm::normalize(dvec3(0.1, -0.05, 1.0))}};
+    for (const double g : {0.0, 0.9, -0.5}) {
+        const Haze haze(fogOf(g), dvec3(0.0, 5.0, 0.0));
+        for (const auto kind : {scene::LampKind::point, scene::LampKind::spot, scene::LampKind::pyramid}) {
+            const Beam beam(lampOf(kind, 70.0, 0.4));
+            for (const Ray& ray : rays) {
+                const Part part{0.0, 300.0};
+                const dvec3 expected = plainSum(haze, beam, ray, part);
+                const dvec3 found = onceScattered(haze, beam, ray, part, missOf(ray, beam.position()));
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(found[c], expected[c], 2e-3 * expected[c] + 1e-12)
+                        << "g " << g << ", kind " << static_cast<int>(kind) << ", " << ray.direction.x;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lumulus::lamp
