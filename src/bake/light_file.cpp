@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.h"
 #include "base/version.h"
+#include "render/ambient.h"
 
 namespace lumulus::bake {
 namespace {
@@ -18,15 +19,6 @@ using json = nlohmann::ordered_json;
 constexpr const char* irradiance = "W m^-2";
 constexpr const char* harmonic = "W m^-2 sr^-1/2";
 constexpr std::array channels{"red", "green", "blue"};
-constexpr std::array basis{"0.28209479177387814",
-                           "0.4886025119029199 y",
-                           "0.4886025119029199 z",
-                           "0.4886025119029199 x",
-                           "1.0925484305920792 x y",
-                           "1.0925484305920792 y z",
-                           "0.31539156525252005 (3 z^2 - 1)",
-                           "1.0925484305920792 x z",
-                           "0.5462742152960396 (x^2 - y^2)"};
 
 std::string phaseName(const scene::Phase& phase) {
     using enum scene::PhaseModel;
@@ -144,7 +136,7 @@ std::string conventionsOf(const LightGrid& grid, const scene::Scene& scene, cons
     file["harmonics"] = {
         {"radiance", "L(w) = sum over i of sh_i y_i(w), real, orthonormal, l = 0, 1, 1, 1, 2, 2, 2, 2, 2"},
         {"direction", "w = (x, y, z) points to where the light comes from"},
-        {"basis", basis},
+        {"basis", ambientFormulas},
         {"scattered",
          "into direction v: extinction * albedo * (sum over i of g_l sh_i y_i(-v) + sun * p(cos)), with g_l the l-th "
          "Legendre moment of the phase function p (g^l of Henyey-Greenstein), cos the cosine between v and "

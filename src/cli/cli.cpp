@@ -288,9 +288,9 @@ void addThreads(CLI::App& app, std::optional<int>& threads) {
 ThreadUse useOf(const std::string& command, const InfoOptions& info, const SlabOptions& slab,
                 const QueryOptions& query) {
     if (command == "serve") return ThreadUse::server;
-    const bool device = command == "render" || command == "bake" || command == "composite" || command == "bench" ||
-                        (command == "slab" && !slab.reference) || (command == "info" && info.devices) ||
-                        (command == "query" && !query.ambient.empty());
+    const bool device = command == "render" || command == "bake" || command == "environment" ||
+                        command == "composite" || command == "bench" || (command == "slab" && !slab.reference) ||
+                        (command == "info" && info.devices) || (command == "query" && !query.ambient.empty());
     return device ? ThreadUse::device : ThreadUse::host;
 }
 
@@ -304,6 +304,7 @@ void parseAndRun(int argc, const char* const* argv) {
     RenderOptions render;
     MergeOptions merge;
     BakeOptions bake;
+    EnvironmentOptions environment;
     CloudOptions cloud;
     InfoOptions info;
     QueryOptions query;
@@ -320,6 +321,7 @@ void parseAndRun(int argc, const char* const* argv) {
     addRender(app, render, action);
     addMerge(app, merge, action);
     addBake(app, bake, action);
+    addEnvironment(app, environment, action);
     addCloud(app, cloud, action);
     addInfo(app, info, action);
     addQuery(app, query, action);

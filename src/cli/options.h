@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/bake.h"
+#include "cli/environment.h"
 #include "cli/light_maps.h"
 #include "cli/render.h"
 #include "scene/quality.h"
@@ -35,5 +36,6 @@ void addFrame(CLI::App& command, std::optional<std::int64_t>& frame);
 void addRender(CLI::App& app, RenderOptions& options, Action& action);
 void addMerge(CLI::App& app, MergeOptions& options, Action& action);
 void addBake(CLI::App& app, BakeOptions& options, Action& action);
+void addEnvironment(CLI::App& app, EnvironmentOptions& options, Action& action);
 
 }  // namespace lumulus::cli

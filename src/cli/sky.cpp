@@ -13,13 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double eyeHeight = 2.0;  // metres above the ground, without a camera
-
-glm::dvec3 placeOf(const scene::Scene& scene) {
-    const double ground = scene.ground ? scene.ground->height : 0.0;
-    return scene.camera.position.value_or(glm::dvec3(0.0, ground + eyeHeight, 0.0));
-}
-
 Json listOf(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
@@ -78,7 +71,7 @@ void runSky(const SkyOptions& options) {
     const scene::Scene scene = options.scene ? scene::loadScene(*options.scene, options.overrides, std::nullopt,
                                                                 static_cast<double>(options.frame.value_or(0)))
                                              : scene::parseScene("", "defaults", options.overrides);
-    const glm::dvec3 place = placeOf(scene);
+    const glm::dvec3 place = sky::observerOf(scene);
     const sky::SkyReport report = sky::reportSky(scene, place);
     printOut(options.json ? jsonOf(scene, place, report).dump(2) + "\n" : textOf(scene, place, report));
 }

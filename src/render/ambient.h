@@ -21,6 +21,17 @@ struct AmbientLight {
 /// 1; y, z, x; xy, yz, 3z² − 1, xz, x² − y².
 std::array<double, 9> ambientBasis(const glm::dvec3& direction);
 
+/// The same as formulas, for people and files.
+inline constexpr std::array ambientFormulas{"0.28209479177387814",
+                                            "0.4886025119029199 y",
+                                            "0.4886025119029199 z",
+                                            "0.4886025119029199 x",
+                                            "1.0925484305920792 x y",
+                                            "1.0925484305920792 y z",
+                                            "0.31539156525252005 (3 z^2 - 1)",
+                                            "1.0925484305920792 x z",
+                                            "0.5462742152960396 (x^2 - y^2)"};
+
 /// Projects radiance that is given for the middles of the pixels of a panorama (rows from the zenith, the middle column
 /// north) on the basis.
 AmbientLight projectPanorama(std::span<const float> red, std::span<const float> green, std::span<const float> blue,

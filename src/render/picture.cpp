@@ -170,7 +170,7 @@ std::vector<shared::SunPixel> PictureOrder::discs(const ViewState::State& state,
     camera.position = eye;
     std::vector<shared::SunPixel> all =
         frame::sunPixels(camera, state.tile, shownSun(world, state), environment.atmosphere());
-    if (!environment.moon()) return all;
+    if (!environment.moon() || !state.sunDisc) return all;
     for (const shared::SunPixel& pixel :
          frame::sunPixels(camera, state.tile, *environment.moon(), environment.atmosphere()))
         all.push_back(pixel);
@@ -220,7 +220,7 @@ LayeredImage PictureOrder::finished(ViewState::State& state, const Tile& wanted)
         if (!disc.empty()) work.run([&](gpu::Commands& commands) { state.frame->recordSun(commands, disc); });
     };
     addDisc(shownSun(world, state));
-    if (world.lights.environment.moon()) addDisc(*world.lights.environment.moon());
+    if (world.lights.environment.moon() && state.sunDisc) addDisc(*world.lights.environment.moon());
     if (fog != nullptr) return throughFog(state, wanted);
     return state.frame->download(work.commands, {0, 0, state.tile.width, state.tile.height}, work.times);
 }

@@ -31,7 +31,7 @@ struct ViewState::State {
     Camera previous;      ///< of the picture before
     Tile tile;            ///< the part of the picture that is drawn
     Tile shown;           ///< what of the tile the clouds may be seen in: the rest is background
-    bool sunDisc = true;  ///< whether the sun's disc is seen
+    bool sunDisc = true;  ///< whether the discs of sun and moon are seen
     bool coarse = false;  ///< the picture is (View::coarse)
     int raysAcross = 1;
     int spacing = 1;                          ///< of the points of sparse sampling in pixels; 1: every pixel is drawn

@@ -50,6 +50,12 @@ struct Diffuse {
 
 }  // namespace
 
+glm::dvec3 observerOf(const scene::Scene& scene) {
+    constexpr double eyeHeight = 2.0;
+    const double ground = scene.ground ? scene.ground->height : 0.0;
+    return scene.camera.position.value_or(glm::dvec3(0.0, ground + eyeHeight, 0.0));
+}
+
 SkyReport reportSky(const scene::Scene& scene, const glm::dvec3& point) {
     const Environment environment(scene.sky, scene.ground, scene.sun.angularDiameter);
     const scene::Sun sun = environment.sunOf(scene.sun);

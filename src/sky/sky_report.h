@@ -25,6 +25,9 @@ struct SkyReport {
     double horizonLuminance = 0.0;  ///< at an elevation of 2°, away from the sun, cd/m²
 };
 
+/// Where somebody looks at the sky of a scene: where its camera stands, or else 2 m above the ground at the origin.
+glm::dvec3 observerOf(const scene::Scene& scene);
+
 /// Sums up the light at a point. The moon's light is that of the sun times `scene::moonShare`; it counts for the sky
 /// where the scene says that it shines. An atmosphere has `nightLuminance` besides.
 SkyReport reportSky(const scene::Scene& scene, const glm::dvec3& point);

@@ -34,7 +34,7 @@ struct View {
     int mostRays = 4;                       ///< along each side of a pixel, where pixels are larger than voxels
     bool coarse = false;                    ///< to be enlarged: light in larger cells, fewer texels of air before the
                                             ///< clouds, and the sky of an eye nearby serves
-    bool sunDisc = true;                    ///< whether the sun's disc is seen where nothing is before it
+    bool sunDisc = true;                    ///< whether discs of sun and moon are seen where nothing is before them
 
     bool operator==(const View&) const = default;
 };

@@ -1,0 +1,1 @@
+lumulus_test(environment_levels_test SOURCES ${CMAKE_CURRENT_LIST_DIR}/environment_levels_test.cpp LINK lumulus_environment)
