@@ -183,7 +183,7 @@ void runRender(const RenderOptions& options) {
     writeOutputs(options, image, scene.image, steps);
     const double writeSeconds = secondsSince(writing);
     const double seconds = secondsSince(start);
-    if (reached) tellReached(options, statistics, *reached, seconds);
+    if (reached) tellReached(options, statistics, *reached, seconds - error.seconds());
     error.tell(options.quiet);
     writeStatistics(options.stats, statisticsJson(statistics, reached, writeSeconds, seconds, error.json()));
     tellDefaults(scene, options.quiet);

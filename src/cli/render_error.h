@@ -37,7 +37,8 @@ class ErrorOfPicture {
     /// was found in its layers and attributes. Errors: Error where interrupted.
     void measure(LayeredImage& image, const scene::Scene& scene, double pictureSeconds);
 
-    const std::optional<reference::PictureError>& found() const { return error_; }
+    /// Seconds that the measurement took; 0 where there was none.
+    double seconds() const { return error_ ? error_->seconds : 0.0; }
     /// The object `error` of --stats.
     nlohmann::ordered_json json() const;
     /// Says on stderr what was found.
