@@ -16,7 +16,9 @@ namespace {
 /// Parts of the paths that threads share; each has sums of its own, which are added in their order.
 constexpr std::size_t parts = 16;
 /// Effective number of shares below which a coarser level is taken, and above which none of it is.
-constexpr float few = 40.0F, many = 300.0F;
+constexpr float few = 3.0F, many = 20.0F;
+/// Levels by which a neighbourhood is coarser that tells how many shares a cell would have.
+constexpr std::size_t widerBy = 3;
 
 float luminanceOf(const glm::dvec3& rgb) {
     return static_cast<float>(glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)));
@@ -107,17 +109,23 @@ void Glow::addLevels() {
 }
 
 glm::dvec3 Glow::at(const glm::dvec2& place) const {
+    const auto placeIn = [&](std::size_t i) {
+        return (place + static_cast<double>(margin_)) /
+               (static_cast<double>(cell_) * std::pow(2.0, static_cast<double>(i)));
+    };
     glm::vec3 result(0.0F);
     for (std::size_t i = levels_.size(); i-- > 0;) {
         const Level& level = levels_[i];
-        const glm::dvec2 here = (place + static_cast<double>(margin_)) /
-                                (static_cast<double>(cell_) * std::pow(2.0, static_cast<double>(i)));
-        const float shares = between<float>(level.size, here, [&](std::size_t at) { return level.effective(at); });
+        // by a wide neighbourhood: cells that have missed their brightest shares would take themselves for sure
+        const std::size_t wide = std::min(i + widerBy, levels_.size() - 1);
+        const float shares = between<float>(levels_[wide].size, placeIn(wide),
+                                            [&](std::size_t at) { return levels_[wide].effective(at); }) /
+                             std::pow(4.0F, static_cast<float>(wide - i));
         const bool coarsest = i + 1 == levels_.size();
         const float weight = coarsest ? 1.0F : glm::smoothstep(few, many, shares);
         if (weight == 0.0F) continue;
         const glm::vec3 light = between<glm::vec3>(
-            level.size, here, [&](std::size_t at) { return level.light[at] / level.solidAngle[at]; });
+            level.size, placeIn(i), [&](std::size_t at) { return level.light[at] / level.solidAngle[at]; });
         result = glm::mix(result, light, weight);
     }
     return glm::dvec3(result);

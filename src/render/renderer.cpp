@@ -194,8 +194,8 @@ void Renderer::State::addLamps(LayeredImage& picture, const Camera& seen, const 
         throw InputError("lamps are not drawn in orthographic views", "camera.projection",
                          "use a perspective camera, or leave them out: --set lamp=[]");
     report("lamps", 0, 1);
-    // a tenth of the photons of a map: each of their events counts, not those in a collector alone
-    const std::int64_t paths = std::min<std::int64_t>(world->photonMap.photons / (view.coarse ? 80 : 10), 100'000'000);
+    // as many as the photons of a map, whose light is not needed without clouds
+    const std::int64_t paths = std::min<std::int64_t>(world->photonMap.photons / (view.coarse ? 16 : 1), 100'000'000);
     lamp::addLamps(picture, seen, drawnTile(view),
                    {lamps, world->fog, world->lights.ground, static_cast<int>(paths), world->photonMap.seed}, check);
     report("lamps", 1, 1);

@@ -128,8 +128,8 @@ TEST(LampPicture, BeamsScatterOnce) {
 
 TEST(LampPicture, APointWithAllScatterings) {
     const Distance found = compared(pointLamp, 1500, reference::allScatterings, 2'000'000);
-    EXPECT_LT(std::abs(found.bias), 0.02);
-    EXPECT_LT(std::abs(found.relative), 1e-2);
+    EXPECT_LT(std::abs(found.bias), 0.03);
+    EXPECT_LT(std::abs(found.relative), 3e-2);
 }
 
 /// What should not be near each other still has finite light: a lamp on the ground, one in it, the eye within a beam of
