@@ -210,8 +210,8 @@ class Density(DensityTest):
         with self.assertRaises(ServiceError) as caught:
             self.one.wait(request)
         self.assertEqual(caught.exception.code, "superseded")
-        request = self.one.send("change", {"frame": 2})
         hashes = {self.bystander.frame().info["hash"]}
+        request = self.one.send("change", {"frame": 2})
         self.one.load_scene("moving.toml")
         with self.assertRaises(ServiceError) as caught:
             self.one.wait(request)
