@@ -63,6 +63,20 @@ class PendingChanges {
         };
         return std::erase_if(changes_, isIt) > 0 || std::erase(asking_, std::pair(client, request)) > 0;
     }
+    /// Ends all of them of a client. Returns their requests, which are not answered.
+    std::vector<std::uint64_t> cancelDensities(ClientId client) {
+        std::vector<std::uint64_t> requests;
+        std::erase_if(changes_, [&](const Change& change) {
+            if (!change.density || change.client != client) return false;
+            requests.push_back(*change.request);
+            return true;
+        });
+        std::erase_if(asking_, [&](const auto& asked) {
+            if (asked.first == client) requests.push_back(asked.second);
+            return asked.first == client;
+        });
+        return requests;
+    }
     /// Whether a change of density that was taken waits for its answer here: nobody prepares it, nor has cancelled it.
     bool wants(const Change& change) const {
         return std::ranges::find(asking_, std::pair(change.client, *change.request)) != asking_.end();

@@ -53,6 +53,7 @@ void SceneDesk::submit(LoadJob job) {
     const ClientId client = job.client;
     loader_.submit(std::move(job));
     giveUpDensities(client);
+    for (const std::uint64_t request : host_.changes.cancelDensities(client)) supersede(client, request);
     host_.scheduler.setWaiting(client, true);
 }
 
@@ -70,9 +71,11 @@ std::vector<LoadJob> SceneDesk::takeDensities(ClientId client, std::optional<std
 
 /// Of a client who wants another one, or another scene.
 void SceneDesk::giveUpDensities(ClientId client) {
-    for (const LoadJob& job : takeDensities(client, std::nullopt))
-        host_.reply(client, job.id,
-                    Failure{"superseded", "a newer density or scene of the client takes its place", {}});
+    for (const LoadJob& job : takeDensities(client, std::nullopt)) supersede(client, job.id);
+}
+
+void SceneDesk::supersede(ClientId client, std::uint64_t request) {
+    host_.reply(client, request, Failure{"superseded", "a newer density or scene of the client takes its place", {}});
 }
 
 void SceneDesk::prepare(LoadJob job) {

@@ -86,6 +86,7 @@ class SceneDesk {
     void prepared(const LoadJob& job, SlotPointer slot, DensityChanged changed, MemoryBudget::Share light);
     std::vector<LoadJob> takeDensities(ClientId client, std::optional<std::uint64_t> id);
     void giveUpDensities(ClientId client);
+    void supersede(ClientId client, std::uint64_t request);
     void letWait(ClientId client, bool loads);
     SceneDescription describe(const SlotPointer& slot) const;
 
