@@ -15,6 +15,7 @@
 #include "cli/clouds_told.h"
 #include "cli/options.h"
 #include "cli/output.h"
+#include "progressive/trace_until.h"
 #include "render/renderer.h"
 #include "scene/fog_bounds.h"
 #include "scene/load.h"
@@ -47,16 +48,6 @@ void checkOptions(const BakeOptions& options, const bake::LightPlaces& places) {
     checkPlaces(outputs);
 }
 
-void trace(Renderer& renderer, Steps& steps) {
-    const auto generations = static_cast<std::uint64_t>(renderer.generationsWanted());
-    for (std::uint64_t done = 0; done < generations; ++done) {
-        steps.report("photons", done, generations);
-        stopIfInterrupted();
-        renderer.traceGeneration();
-    }
-    if (generations > 0) steps.report("photons", generations, generations);
-}
-
 }  // namespace
 
 void runBake(const BakeOptions& options) {
@@ -72,7 +63,7 @@ void runBake(const BakeOptions& options) {
     };
     Renderer renderer(scene, how);
     bake::checkVoxels(renderer, options.voxel);
-    trace(renderer, steps);
+    progressive::traceAll(renderer, steps.reporter());
     const bake::LightGrid grid = bake::bakeLight(renderer, options.voxel, steps.reporter(), stopIfInterrupted);
     const Statistics statistics = renderer.statistics();
     for (const std::string& warning : std::span(statistics.warnings).subspan(told)) logWarning(warning);

@@ -83,13 +83,7 @@ void trace(Renderer& renderer, const EnvironmentOptions& options, Clock::time_po
                                    *options.seconds));
         return;
     }
-    const auto generations = static_cast<std::uint64_t>(renderer.generationsWanted());
-    for (std::uint64_t done = 0; done < generations; ++done) {
-        steps.report("photons", done, generations);
-        stopIfInterrupted();
-        renderer.traceGeneration();
-    }
-    if (generations > 0) steps.report("photons", generations, generations);
+    progressive::traceAll(renderer, steps.reporter());
 }
 
 }  // namespace

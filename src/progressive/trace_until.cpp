@@ -147,4 +147,14 @@ Reached traceUntil(Renderer& renderer, const Goal& goal, const std::function<dou
     return Run(renderer, goal, elapsed, report).trace();
 }
 
+void traceAll(Renderer& renderer, const Report& report) {
+    const auto generations = static_cast<std::uint64_t>(renderer.generationsWanted());
+    for (std::uint64_t done = 0; done < generations; ++done) {
+        report("photons", done, generations);
+        stopIfInterrupted();
+        renderer.traceGeneration();
+    }
+    if (generations > 0) report("photons", generations, generations);
+}
+
 }  // namespace lumulus::progressive

@@ -37,4 +37,7 @@ struct Reached {
 /// photons as far as they come. Errors: those of Renderer; Error if interrupted.
 Reached traceUntil(Renderer& renderer, const Goal& goal, const std::function<double()>& elapsed, const Report& report);
 
+/// Traces all generations that the scene wants. Errors: Error where interrupted() is true.
+void traceAll(Renderer& renderer, const Report& report);
+
 }  // namespace lumulus::progressive
