@@ -14,6 +14,7 @@ layout(constant_id = 2) const bool PHOTONS = true;  // there is a photon map
 layout(constant_id = 4) const bool MANY = false;     // more than one instance
 layout(constant_id = 5) const bool AIR = false;      // an atmosphere: the sun's light differs by place
 layout(constant_id = 6) const bool GROUND = false;   // rays end at the ground
+layout(constant_id = 7) const bool THICK = false;    // voxels are so thick that the sun's light differs within one
 layout(constant_id = 3) const bool GREY = false;     // albedo and phase function are the same for all colours
 layout(constant_id = 8) const bool COLOURED = false; // the phase function of a cloud differs between colours
 
@@ -38,6 +39,7 @@ DrawParams params;
 #include "lib/ray_segment.glsl"
 #include "lib/instance_tiles.glsl"
 #include "lib/tile_detail.glsl"
+#include "lib/near_sun.glsl"
 
 /// Optical thickness that a first step may have at most, by the cell's majorant.
 const float STEP_THICKNESS = 0.5;
@@ -100,7 +102,7 @@ void marchThrough(InstanceParams instance, vec3 direction, Line line, vec2 insid
             const float thickness = found * instance.extinction * walk.step;
             const vec3 seen = line.start + line.velocity * (near + seenAt(thickness, offset) * walk.step);
             addSegment(ray, instance, sun, near, near + walk.step, thickness, seen,
-                       SUN ? depthToSun(instance, seen) : 0.0);
+                       SUN ? depthToSunNear(instance, seen, ray.depth) : 0.0);
         }
         if (MANY)
             more = more && !isOpaque(ray);

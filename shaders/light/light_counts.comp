@@ -18,7 +18,7 @@ layout(binding = 2, rgba32f) uniform readonly image2D fluences;  // flux, fluenc
 layout(binding = 3, scalar) readonly buffer CollisionEstimates { int64_t estimates[]; };
 layout(binding = 4, r32f) uniform readonly image3D cellMass;
 layout(binding = 5) uniform writeonly image3D counts;    // gain towards a direction (vector), ratio
-layout(binding = 6) uniform writeonly image3D ownShare;  // of the cell in the smoothed field
+layout(binding = 6) uniform writeonly image3D trust;     // share of the cell in the smoothed field, sharpness: photons · (transport free paths along the cell)²
 layout(binding = 7, scalar) readonly buffer LitCells { uint litCells[]; };
 layout(push_constant, scalar) uniform Push { LightCountsPush push; };
 
@@ -85,7 +85,7 @@ void main() {
                 }
             }
     vec4 result = vec4(0.0, 0.0, 0.0, 1.0);
-    float own = 0.0;
+    vec2 trusted = vec2(0.0);
     if (light.w > 0.0 && push.photon > 0.0) {
         light /= mass;
         const float counted = countedIn(cell * push.estimatorAcross, push.estimatorAcross);
@@ -94,8 +94,9 @@ void main() {
         const float ratio = (counted + prior) / (expected + prior);
         const vec3 turned = fluxDeviation(cell, light.xyz / light.w);
         result = vec4(3.0 / (4.0 * PI) * push.moment * FLUX_BELIEF * ratio * light.w * turned, ratio);
-        own = counted / (counted + OWN * push.photon);
+        const float thickness = push.thickness * imageLoad(cellMass, cell).r;
+        trusted = vec2(counted / (counted + OWN * push.photon), thickness * thickness * counted / push.photon);
     }
     imageStore(counts, cell, result);
-    imageStore(ownShare, cell, vec4(own));
+    imageStore(trust, cell, vec4(trusted, 0.0, 0.0));
 }

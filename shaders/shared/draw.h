@@ -159,6 +159,7 @@ struct LightCountsPush {
     float massScale;       // ∫ normalised density [voxels] → ∫ σt' dV [m²]
     float photon;          // mean luminance of a photon [W]
     float moment;          // of the phase function, of band 1
+    float thickness;       // ∫ normalised density [voxels] → edge of a cell in transport mean free paths, on average in it
     uint occupied;         // cells with density, the first of the list
     uint firstCollector;   // of the instance, among those of all
 };
@@ -175,7 +176,7 @@ static_assert(sizeof(Pixel) == 16 * PIXEL_TEXELS && offsetof(Pixel, unused) == 4
 static_assert(sizeof(ShadowVolumePush) == 80 && offsetof(ShadowVolumePush, firstRow) == 76);
 static_assert(sizeof(BillboardMeanPush) == 52 && offsetof(BillboardMeanPush, spheres) == 48);
 static_assert(sizeof(LightFieldPush) == 88 && offsetof(LightFieldPush, firstCollector) == 84);
-static_assert(sizeof(LightCountsPush) == 68 && offsetof(LightCountsPush, firstCollector) == 64);
+static_assert(sizeof(LightCountsPush) == 72 && offsetof(LightCountsPush, firstCollector) == 68);
 #endif
 
 SHARED_END

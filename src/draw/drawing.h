@@ -15,13 +15,14 @@ struct DrawFeatures {
     bool forwardCut = false;  ///< the forward peak is cut
     bool sun = false;
     bool photons = false;
-    bool grey = false;       ///< albedo and phase function of each cloud are the same for all colours
-    bool coloured = false;   ///< the phase function of a cloud differs between colours
-    bool many = false;       ///< more than one instance
-    bool ground = false;     ///< rays of a march end at a ground
-    bool sparse = false;     ///< densities are in bricks
-    bool air = false;        ///< the sky is an atmosphere
-    bool skyReturn = false;  ///< a backward peak sends light of the sky to and fro along rays
+    bool grey = false;         ///< albedo and phase function of each cloud are the same for all colours
+    bool coloured = false;     ///< the phase function of a cloud differs between colours
+    bool many = false;         ///< more than one instance
+    bool ground = false;       ///< rays of a march end at a ground
+    bool sparse = false;       ///< densities are in bricks
+    bool air = false;          ///< the sky is an atmosphere
+    bool skyReturn = false;    ///< a backward peak sends light of the sky to and fro along rays
+    bool thickVoxels = false;  ///< of a march: voxels are so thick that the sun's light differs within one
 
     std::vector<gpu::SpecConstant> constants() const {
         return {gpu::SpecConstant::of(0, forwardCut), gpu::SpecConstant::of(1, sun),

@@ -11,6 +11,7 @@ namespace spirv {
 std::vector<gpu::SpecConstant> constantsOf(const DrawFeatures& features) {
     std::vector<gpu::SpecConstant> constants = features.constants();
     constants.push_back(gpu::SpecConstant::of(6, features.ground));
+    constants.push_back(gpu::SpecConstant::of(7, features.thickVoxels));
     return constants;
 }
 

@@ -16,7 +16,7 @@ namespace spirv {
 
 /// Fills the mass of each cell.
 LitCells findLitCells(gpu::Context& context, const MassProgram& program, const cloud::Asset& asset,
-                      const cloud::CellGrid& grid, const gpu::Image& mass) {
+                      const cloud::CellGrid& grid, const gpu::Image& mass, const gpu::Image& centres) {
     const cloud::MajorantGrid& majorants = asset.cellImage ? asset.cells : asset.majorants;
     shared::LightMassPush push{};
     push.size = asset.size;
@@ -30,6 +30,7 @@ LitCells findLitCells(gpu::Context& context, const MassProgram& program, const c
                       {{"density", *asset.density, gpu::Sampler::linear},
                        {"bricks", asset.brickIndex(), gpu::Sampler::nearest},
                        {"cellMass", mass},
+                       {"massCentres", centres},
                        {"majorants", asset.marchedCells()}},
                       push, gpu::linearGroups(grid.count(), 64));
     commands.submit();
@@ -48,7 +49,8 @@ CellLayout::CellLayout(gpu::Context& context, const MassProgram& program, const 
                        const cloud::CellGrid& cells)
     : grid(cells),
       mass(context, "light cell mass", grid.cells, VK_FORMAT_R32_SFLOAT),
-      lit(findLitCells(context, program, asset, grid, mass)),
+      massCentres(context, "light cell centres", grid.cells, VK_FORMAT_R8G8B8A8_UNORM),
+      lit(findLitCells(context, program, asset, grid, mass, massCentres)),
       litCells(gpu::filledBuffer(context, "lit cells", lit.numbers)) {}
 
 std::shared_ptr<const CellLayout> CellLayouts::of(gpu::Context& context, const cloud::Asset& asset,

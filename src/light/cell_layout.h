@@ -33,7 +33,8 @@ struct CellLayout {
                const cloud::CellGrid& cells);
 
     cloud::CellGrid grid;
-    gpu::Image mass;  ///< of each cell: ∫ normalised density [voxels]
+    gpu::Image mass;         ///< of each cell: ∫ normalised density [voxels]
+    gpu::Image massCentres;  ///< where in each cell the middle of its mass is, from its lower corner [edges of a cell]
     LitCells lit;
     gpu::Buffer litCells;  ///< its numbers
 };

@@ -74,7 +74,7 @@ LightCells::LightCells(gpu::Context& context, const cloud::Asset& asset, std::sh
                     {gpu::SpecConstant::of(0, grid().edge), gpu::SpecConstant::of(1, coarse), asset.sparseConstant()}),
       smoothProgram_(context, "light_smooth", spirv::light_smooth_comp),
       counts_(context, "light counts", grid().cells, VK_FORMAT_R32G32B32A32_SFLOAT),
-      ownShare_(context, "own share", grid().cells, VK_FORMAT_R32_SFLOAT) {}
+      trust_(context, "light cell trust", grid().cells, VK_FORMAT_R32G32_SFLOAT) {}
 
 LightField::LightField(gpu::Context& context, const cloud::CellGrid& grid)
     : grid_(grid),
@@ -110,6 +110,10 @@ void LightCells::recordCounts(gpu::Commands& commands, const gpu::Image& fluence
     values.massScale = static_cast<float>(estimates.massScale);
     values.photon = static_cast<float>(estimates.photonPower);
     values.moment = static_cast<float>(estimates.moment);
+    // mass / edge³ is the mean density, times σt' (1 − g') and the edge in metres
+    const double voxel = std::cbrt(std::abs(glm::determinant(voxelToMetres_)));
+    values.thickness = static_cast<float>(estimates.massScale * (1.0 - estimates.moment) /
+                                          (voxel * voxel * grid().edge * grid().edge));
     values.occupied = layout_->lit.occupied;
     values.firstCollector = firstCollector_;
     commands.pass("light counts");
@@ -121,7 +125,7 @@ void LightCells::recordCounts(gpu::Commands& commands, const gpu::Image& fluence
                        {"CollisionEstimates", estimates.counts},
                        {"cellMass", layout_->mass},
                        {"counts", counts_},
-                       {"ownShare", ownShare_},
+                       {"trust", trust_},
                        {"LitCells", layout_->litCells}},
                       values, gpu::linearGroups(layout_->lit.occupied, 64));
     commands.barrier("light counts");
@@ -147,10 +151,13 @@ void LightField::record(gpu::Commands& commands, const LightCells& of, const glm
                        {"LitCells", layout.litCells}},
                       values, gpu::linearGroups(layout.lit.occupied, 64));
     commands.barrier("light cells");
-    commands.dispatch(
-        of.smoothProgram_,
-        {{"cells", cells_}, {"ownShare", of.ownShare_}, {"lightField", image_}, {"LitCells", layout.litCells}}, values,
-        gpu::linearGroups(layout.lit.numbers.size(), 64));
+    commands.dispatch(of.smoothProgram_,
+                      {{"cells", cells_},
+                       {"trust", of.trust_},
+                       {"massCentres", layout.massCentres},
+                       {"lightField", image_},
+                       {"LitCells", layout.litCells}},
+                      values, gpu::linearGroups(layout.lit.numbers.size(), 64));
 }
 
 }  // namespace lumulus::light

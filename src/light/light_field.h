@@ -62,7 +62,7 @@ class LightCells {
     std::uint32_t firstCollector_;
     gpu::Program<shared::LightCountsPush> countsProgram_;
     gpu::Program<shared::LightFieldPush> cellsProgram_, smoothProgram_;
-    gpu::Image counts_, ownShare_;
+    gpu::Image counts_, trust_;
 };
 
 /// In-scattered radiance towards one eye as a smooth field: the collectors' values on a grid of cells, scaled and

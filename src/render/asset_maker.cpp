@@ -26,11 +26,6 @@ vdb::Affine atDetail(const vdb::Affine& place, const Detail& detail) {
     return detail.level > 0 ? cloud::coarsened(place, detail.level) : cloud::refined(place, detail.parts);
 }
 
-double reducedExtinction(const phase::ScatteringMedium& medium, int bands) {
-    const double forward = bands > 1 ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
-    return medium.extinction * static_cast<double>(medium.tables.scatterFraction) * (1.0 - forward);
-}
-
 AssetSummary summaryOf(const cloud::Asset& asset, const Group& group) {
     const cloud::PreparationTimes& t = asset.times;
     return {{asset.size.x, asset.size.y, asset.size.z},
@@ -45,6 +40,11 @@ AssetSummary summaryOf(const cloud::Asset& asset, const Group& group) {
 }
 
 }  // namespace
+
+double reducedExtinction(const phase::ScatteringMedium& medium, int bands) {
+    const double forward = bands > 1 ? static_cast<double>(medium.tables.bandMoments[1]) : 0.0;
+    return medium.extinction * static_cast<double>(medium.tables.scatterFraction) * (1.0 - forward);
+}
 
 const vdb::Volume& AssetMaker::volumeOf(Plan& plan) const {
     if (plan.group.detail.isWhole()) return *plan.group.volume;

@@ -40,6 +40,9 @@ inline double edgeOf(const glm::dmat3& voxelToMetres) {
     return std::cbrt(std::abs(glm::determinant(voxelToMetres)));
 }
 
+/// σt'(1−g') where the normalised density is 1 [1/m]: one over the transport mean free path of the truncated medium.
+double reducedExtinction(const phase::ScatteringMedium& medium, int bands);
+
 /// Makes the assets of groups, and gives them to their instances.
 class AssetMaker {
   public:

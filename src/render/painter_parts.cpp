@@ -2,7 +2,20 @@
 
 #include <algorithm>
 
+#include "render/asset_maker.h"
+
 namespace lumulus {
+
+namespace {
+
+/// Whether the light that reaches a cloud's voxels falls by more than a fifth within one, where they are densest: by
+/// the transport's mean free path.
+bool hasThickVoxels(const cloud::Instance& instance, int bands) {
+    constexpr double thick = 0.25;
+    return reducedExtinction(instance.medium, bands) * instance.voxelEdge() >= thick;
+}
+
+}  // namespace
 
 draw::DrawFeatures featuresOf(const World& world) {
     draw::DrawFeatures features;
@@ -18,6 +31,9 @@ draw::DrawFeatures featuresOf(const World& world) {
     features.sparse = std::ranges::any_of(instances, [](const auto* i) { return i->asset->isSparse(); });
     features.air = world.fogLight != nullptr || world.lights.environment.atmosphere() != nullptr;
     features.skyReturn = world.skyReturn.has_value();
+    features.thickVoxels = features.sun && std::ranges::any_of(instances, [&](const auto* i) {
+                               return hasThickVoxels(*i, world.photonMap.bands);
+                           });
     return features;
 }
 

@@ -161,7 +161,7 @@ TEST(SharedLayout, Draw) {
     EXPECT_PUSH(light_mass_comp, LightMassPush, size, grid, edge, perMajorant, majorantCells);
     EXPECT_PUSH(light_cells_comp, LightFieldPush, size, grid, edge, eye, voxelToWorld, occupied, lit, firstCollector);
     EXPECT_PUSH(light_counts_comp, LightCountsPush, size, grid, estimatorCells, estimatorAcross, estimatorBase,
-                estimatorScale, massScale, photon, moment, occupied, firstCollector);
+                estimatorScale, massScale, photon, moment, thickness, occupied, firstCollector);
     EXPECT_PUSH(billboard_mean_comp, BillboardMeanPush, worldToVoxel, inverseSize, spheres);
 }
 
