@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <string>
 
+#include "scene/phase.h"
 #include "scene/wind.h"
 
 /// A procedural field of clouds (docs/fields.md).
@@ -27,6 +28,7 @@ struct Field {
     Wind wind;                 ///< with which its clouds drift, each by the middle of its height
     double extinction = 0.08;  ///< 1/m at density 1
     glm::dvec3 albedo{1.0};
+    Phase phase;
 
     bool operator==(const Field&) const = default;
 };

@@ -44,8 +44,9 @@ std::vector<Key> sequenceKeys();
 std::vector<Key> mapKeys();
 std::vector<Key> sunAndSkyKeys();
 std::vector<Key> atmosphereKeys();
-std::vector<Key> timeKeys();  ///< time, moon, and what of the sun goes with them
-std::vector<Key> phaseKeys();
+std::vector<Key> timeKeys();        ///< time, moon, and what of the sun goes with them
+std::vector<Key> phaseKeys();       ///< of clouds
+std::vector<Key> fieldPhaseKeys();  ///< the same of fields
 std::vector<Key> fieldKeys();
 std::vector<Key> storageKeys();
 std::vector<Key> fogKeys();

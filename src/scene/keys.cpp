@@ -217,8 +217,8 @@ const std::vector<Key>& schema() {
         std::vector<Key> keys;
         for (const auto& part :
              {imageAndCameraKeys(), timeKeys(), sunAndSkyKeys(), atmosphereKeys(), mapKeys(), groundKeys(), cloudKeys(),
-              sequenceKeys(), phaseKeys(), fieldKeys(), preparationKeys(), storageKeys(), detailKeys(),
-              photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys(), lampKeys()}) {
+              sequenceKeys(), phaseKeys(), fieldKeys(), fieldPhaseKeys(), preparationKeys(), storageKeys(),
+              detailKeys(), photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys(), lampKeys()}) {
             keys.insert(keys.end(), part.begin(), part.end());
         }
         return keys;

@@ -13,6 +13,7 @@
 #include "scene/field.h"
 #include "scene/fog.h"
 #include "scene/lamp.h"
+#include "scene/phase.h"
 #include "scene/sky.h"
 #include "scene/surface.h"
 #include "scene/voxels.h"
@@ -48,19 +49,6 @@ struct Camera {
     Projection projection = Projection::perspective;
 
     bool operator==(const Camera&) const = default;
-};
-
-enum class PhaseModel { henyeyGreenstein, schlick, rayleigh, hazy, murky, droplet, mie, table };
-
-struct Phase {
-    PhaseModel model = PhaseModel::henyeyGreenstein;
-    double g = 0.85;
-    double dropletDiameter = 20.0;   ///< µm, 5 to 50, for `droplet`
-    double effectiveRadius = 10.0;   ///< µm, 2 to 50, for `mie`
-    double effectiveVariance = 0.1;  ///< of the gamma distribution of radii, for `mie`
-    std::filesystem::path table{};   ///< of angle and value, for `table`
-
-    bool operator==(const Phase&) const = default;
 };
 
 /// What a cloud shows before the first and behind the last file of its sequence.

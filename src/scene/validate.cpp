@@ -200,7 +200,11 @@ Scene finishScene(Draft draft, const Settings& settings) {
         checkFile(cloud.vdb, path + ".vdb", "an OpenVDB file", draft.allowed, settings);
         checkFile(cloud.instances, path + ".instances", "a CSV file of places", draft.allowed, settings);
     }
-    for (std::size_t i = 0; i < draft.scene.fields.size(); ++i) checkField(draft.scene, i, settings);
+    for (std::size_t i = 0; i < draft.scene.fields.size(); ++i) {
+        checkField(draft.scene, i, settings);
+        checkPhase(draft.scene.fields[i].phase, fmt::format("field.{}", i), settings);
+        checkPhaseTable(draft.scene.fields[i].phase, fmt::format("field.{}", i), draft.allowed, settings);
+    }
     finishFog(draft, settings);
     for (std::size_t i = 0; i < draft.scene.surfaces.size(); ++i) finishSurface(draft.scene.surfaces[i], i, settings);
     finishLamps(draft, settings);

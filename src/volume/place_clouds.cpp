@@ -54,6 +54,7 @@ void addField(std::vector<scene::Cloud>& placed, const scene::Field& field, cons
         cloud.transform[3] += glm::dvec4(scene.seconds * field.wind.at(places[i].middle), 0.0);
         cloud.extinction = field.extinction * places[i].place.extinction;
         cloud.albedo = field.albedo;
+        cloud.phase = field.phase;
         placed.push_back(std::move(cloud));
     }
 }

@@ -273,6 +273,19 @@ TEST_F(Instances, MoreThanTheBudgetAreRefusedWithBothNumbers) {
     }
 }
 
+TEST(PlaceClouds, CloudsOfAFieldScatterAsItSays) {
+    scene::Field field = fieldOf(scene::FieldKind::cumulus, 0.2);
+    field.albedo = {1.0, 0.9, 0.8};
+    field.phase.model = scene::PhaseModel::mie;
+    field.phase.effectiveRadius = 7.0;
+    const scene::Scene placed = placeClouds(sceneOf(field));
+    ASSERT_FALSE(placed.clouds.empty());
+    for (const scene::Cloud& cloud : placed.clouds) {
+        EXPECT_EQ(cloud.phase, field.phase);
+        EXPECT_EQ(cloud.albedo, field.albedo);
+    }
+}
+
 TEST(PlaceClouds, LeavesOtherScenesAlone) {
     scene::Scene scene;
     scene.clouds.resize(2);

@@ -40,10 +40,14 @@ TEST(SceneField, EveryKeyArrives) {
         wind = [10, 0, -5]
         extinction = 0.01
         albedo = [1, 0.9, 0.8]
+        phase = { model = "mie", effective_radius = 7.0, effective_variance = 0.03 }
     )");
     Field expected{
-        FieldKind::cirrus,     "high", 0.5,          8000, {1, 2, 3}, {4000, 0, 5000}, 300, 900, 2.5, 3, 64, 9,
-        glm::dvec3(10, 0, -5), 0.01,   {1, 0.9, 0.8}};
+        FieldKind::cirrus,     "high", 0.5,           8000, {1, 2, 3}, {4000, 0, 5000}, 300, 900, 2.5, 3, 64, 9,
+        glm::dvec3(10, 0, -5), 0.01,   {1, 0.9, 0.8}, {}};
+    expected.phase.model = PhaseModel::mie;
+    expected.phase.effectiveRadius = 7.0;
+    expected.phase.effectiveVariance = 0.03;
     ASSERT_EQ(scene.fields.size(), 1U);
     EXPECT_EQ(scene.fields[0], expected);
 }
@@ -66,6 +70,8 @@ TEST(SceneField, RefusesWhatDoesNotFitTogether) {
     const std::string deck = "[[field]]\nkind = \"stratocumulus\"\nexponent = 2\n";
     EXPECT_THAT(messageOf(deck), HasSubstr("exponent has no effect"));
     EXPECT_EQ(messageOf("[[field]]\nexponent = 2\n", {"field.0.kind=stratocumulus"}), "no error");
+    EXPECT_THAT(messageOf("[[field]]\nphase = { effective_radius = 7 }"),
+                HasSubstr("field.0.phase.effective_radius has no effect"));
     EXPECT_THAT(messageOf("[[field]]\nname = \"a b\""), HasSubstr("cannot be the name of a field"));
     EXPECT_THAT(messageOf("[[field]]\nname = \"a\"\n[[field]]\nname = \"a\""), HasSubstr("another field"));
     EXPECT_THAT(messageOf("[[field]]\nname = \"a\"\n[[cloud]]\nname = \"a\""), HasSubstr("another cloud"));
