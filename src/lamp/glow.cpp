@@ -103,7 +103,7 @@ Glow::Glow(const Camera& camera, const Around& around, std::span<const Beam> bea
         all.open.add(own.open);
         all.clouds.add(own.clouds);
     }
-    findSolidAngles(camera, plane, around.clouds, all);
+    findSolidAngles(camera, plane, around.clouds, check, all);
     levels_.push_back(std::move(all.open));
     addLevels(levels_);
     if (around.clouds.empty()) return;
@@ -111,13 +111,15 @@ Glow::Glow(const Camera& camera, const Around& around, std::span<const Beam> bea
     addLevels(cloudLevels_);
 }
 
-void Glow::findSolidAngles(const Camera& camera, const PicturePlane& plane, const Clouds& clouds, Kinds& kinds) const {
+void Glow::findSolidAngles(const Camera& camera, const PicturePlane& plane, const Clouds& clouds, const Check& check,
+                           Kinds& kinds) const {
     tbb::parallel_for(std::size_t{0}, kinds.open.solidAngle.size(), [&](std::size_t i) {
         const int across = kinds.open.size.x;
         const glm::dvec2 corner(glm::ivec2(static_cast<int>(i) % across, static_cast<int>(i) / across) * cell_ -
                                 margin_);
         kinds.open.solidAngle[i] = static_cast<float>(plane.solidAngle(corner, static_cast<double>(cell_)));
         if (clouds.empty()) return;
+        if (i % 256 == 0) check();
         double cover = 0.0;
         for (int k = 0; k < coverRays * coverRays; ++k) {
             const glm::dvec2 place =

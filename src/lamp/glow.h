@@ -46,7 +46,8 @@ class Glow {
     using Levels = std::vector<Level>;  ///< the finest first
     struct Kinds;
 
-    void findSolidAngles(const Camera& camera, const PicturePlane& plane, const Clouds& clouds, Kinds& kinds) const;
+    void findSolidAngles(const Camera& camera, const PicturePlane& plane, const Clouds& clouds, const Check& check,
+                         Kinds& kinds) const;
     static void addLevels(Levels& levels);
     glm::dvec3 mean(const Levels& levels, const glm::dvec2& place, bool ofClouds) const;
 

@@ -225,7 +225,7 @@ direction = [0, -1, 0]
 angle = 0.001
 power = 1000
 )");
-        const LayeredImage image = one.drawn(500);
+        const LayeredImage image = one.drawn(50);
         for (const char* name : {"R", "G", "B"})
             for (const float value : image.layers.at(name)) ASSERT_TRUE(std::isfinite(value) && value >= 0.0F) << eye;
     }
