@@ -16,8 +16,7 @@ using std::numbers::pi;
 constexpr int mostEvents = 300, mostEventsInClouds = 1000;
 /// Share of its first weight below which a path goes on by chance.
 constexpr double thin = 0.05;
-/// Nearer to the eye than this share of the mean free path all events count alike, as much as they do on average where
-/// they are everywhere.
+/// Nearer to the eye than this share of the mean free path an event does not grow any more.
 constexpr double nearShare = 0.03;
 constexpr double farAway = 1e6;  // metres
 
@@ -171,8 +170,8 @@ void LightPaths::show(const Walk& walk, const Eye& eye, const Seen& seen) const 
     const double least = nearShare * free, clear = eye.clouds.transmittance(-direction, distance);
     if (clear < 1e-6) return;
     const glm::dvec3 passed = glm::exp(-haze_.depth({eye.position, -direction}, distance));
-    const double fall = distance < least ? 3.0 / (least * least) : 1.0 / (distance * distance);
-    seen(-direction, clear * fall * walk.weight * response(walk, direction) * passed, walk.cloud.has_value());
+    seen(-direction, clear * walk.weight * response(walk, direction) * passed / (distance * distance + least * least),
+         walk.cloud.has_value());
 }
 
 void LightPaths::turn(Walk& walk) const {
