@@ -116,6 +116,11 @@ void Beam::addCorners(const Ray& ray, std::vector<double>& distances) const {
     if (rise != 0.0) distances.push_back(-ahead / rise);
 }
 
+void Beam::shadeBy(const Clouds& clouds, int edge, const Check& check) {
+    const Cone cone = coneToClouds(clouds, lamp_.position, {lamp_.direction, widest_});
+    shade_ = DepthMap(clouds, lamp_.position, cone, edge, check);
+}
+
 bool Beam::sample(const glm::dvec3& u, glm::dvec3& direction) const {
     const double away = u.x * versine(widest_), across = std::sqrt(std::max(0.0, away * (2.0 - away)));
     const double azimuth = 2.0 * pi * u.y;

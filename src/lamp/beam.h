@@ -3,12 +3,15 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "base/interrupt.h"
+#include "lamp/clouds.h"
+#include "lamp/depth_map.h"
 #include "scene/lamp.h"
 #include "view/camera.h"
 
 namespace lumulus::lamp {
 
-/// What a lamp sends into each direction.
+/// What a lamp sends into each direction, and what clouds leave of it.
 class Beam {
   public:
     explicit Beam(const scene::Lamp& lamp);
@@ -28,6 +31,15 @@ class Beam {
     /// Whether it lights all directions alike.
     bool isPoint() const { return lamp_.kind == scene::LampKind::point; }
 
+    /// Lets clouds stand in its light. `edge`: directions across the map of their shade. Errors: what `check` throws.
+    void shadeBy(const Clouds& clouds, int edge, const Check& check);
+    /// Whether clouds may stand in its light.
+    bool isShaded() const { return !shade_.empty(); }
+    /// Share of the light that clouds let through into a direction up to a distance [m].
+    double passed(const glm::dvec3& direction, double distance) const {
+        return shade_.transmittance(direction, distance);
+    }
+
     /// A direction drawn by intensity from numbers in [0, 1); false where these give none and others have to be tried.
     bool sample(const glm::dvec3& u, glm::dvec3& direction) const;
 
@@ -36,6 +48,7 @@ class Beam {
     double pyramidShare(const glm::dvec3& direction) const;
 
     scene::Lamp lamp_;
+    DepthMap shade_;
     glm::dvec3 level_, rising_;  ///< unit vectors square to the axis; of a pyramid, each square to two sides
     double inner_, outer_;       ///< angles to the axis, or to a plane through it, between which the light fades
     double widest_;              ///< largest angle to the axis

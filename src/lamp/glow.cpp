@@ -3,11 +3,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-
-#include "lamp/light_path.h"
-#include "lamp/picture_plane.h"
+#include <limits>
+#include <numbers>
+#include <optional>
 
 namespace lumulus::lamp {
 
@@ -16,7 +15,13 @@ namespace {
 /// Parts of the paths that threads share; each has sums of its own, which are added in their order.
 constexpr std::size_t parts = 16;
 /// Effective number of shares below which a coarser level is taken, and above which none of it is.
-constexpr float few = 3.0F, many = 20.0F;
+constexpr float few = 3.0F, many = 20.0F, fewInClouds = 4.0F, manyInClouds = 40.0F;
+/// Least part of a cell that clouds are taken to cover.
+constexpr double leastCover = 1e-3;
+/// Rays across a cell by which that part is found.
+constexpr int coverRays = 3;
+/// Directions across the map of the clouds before the eye.
+constexpr int eyeMapEdge = 256;
 /// Levels by which a neighbourhood is coarser that tells how many shares a cell would have.
 constexpr std::size_t widerBy = 3;
 
@@ -41,60 +46,95 @@ Value between(const glm::ivec2& size, const glm::dvec2& place, const ValueAt& va
 
 }  // namespace
 
-Glow::Glow(const Camera& camera, const Haze& haze, std::span<const Beam> beams,
-           const std::optional<scene::Ground>& ground, const Paths& paths, const Check& check) {
+/// Cells of light from clouds, and from all else.
+struct Glow::Kinds {
+    Level open, clouds;
+};
+
+Glow::Level::Level(const glm::ivec2& cells) : size(cells) {
+    const std::size_t count = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+    light.assign(count, glm::vec3(0.0F));
+    for (auto* values : {&sum, &square, &solidAngle}) values->assign(count, 0.0F);
+}
+
+void Glow::Level::add(std::size_t i, const glm::dvec3& share) {
+    const float luminance = luminanceOf(share);
+    light[i] += glm::vec3(share);
+    sum[i] += luminance;
+    square[i] += luminance * luminance;
+}
+
+void Glow::Level::add(const Level& other) {
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        light[i] += other.light[i];
+        sum[i] += other.sum[i];
+        square[i] += other.square[i];
+    }
+}
+
+Glow::Glow(const Camera& camera, const Around& around, std::span<const Beam> beams, const Paths& paths,
+           const Check& check) {
     const PicturePlane plane(camera);
     cell_ = std::clamp(camera.height / 180, 1, 4);
     // what lies beside the picture serves at its rims
     if (camera.projection == scene::Projection::perspective) margin_ = cell_ * (camera.height / (4 * cell_));
-    Level finest;
-    finest.size = (glm::ivec2(camera.width, camera.height) + 2 * margin_ + cell_ - 1) / cell_;
-    const std::size_t cells = static_cast<std::size_t>(finest.size.x) * static_cast<std::size_t>(finest.size.y);
-    finest.light.assign(cells, glm::vec3(0.0F));
-    finest.sum.assign(cells, 0.0F);
-    finest.square.assign(cells, 0.0F);
-    for (std::size_t i = 0; i < cells; ++i) {
-        const glm::ivec2 cell(static_cast<int>(i) % finest.size.x, static_cast<int>(i) / finest.size.x);
-        finest.solidAngle.push_back(
-            static_cast<float>(plane.solidAngle(glm::dvec2(cell * cell_ - margin_), static_cast<double>(cell_))));
-    }
-    std::array<Level, parts> sums;
-    const LightPaths light(haze, beams, ground, paths.count, paths.seed);
+    const glm::ivec2 cells = (glm::ivec2(camera.width, camera.height) + 2 * margin_ + cell_ - 1) / cell_;
+    const glm::ivec2 ofClouds = around.clouds.empty() ? glm::ivec2(0) : cells;
+    Kinds all{Level(cells), Level(ofClouds)};
+    const Cone inView = coneToClouds(around.clouds, camera.position, {camera.axes[2], std::numbers::pi});
+    const DepthMap before(around.clouds, camera.position, inView, eyeMapEdge, check);
+    std::vector<Kinds> sums(parts, all);
+    const LightPaths light(around, beams, paths.count, paths.seed);
     tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
-        Level& own = sums[part];
-        own = finest;
+        Kinds& own = sums[part];
         for (std::uint64_t i = part; i < paths.count; i += parts) {
             if (i / parts % 64 == 0) check();
-            light.trace(i, camera.position, [&](const glm::dvec3& towards, const glm::dvec3& share) {
-                const std::optional<glm::dvec2> place = plane.placeOf(towards, margin_);
-                if (!place) return;
-                const glm::ivec2 cell =
-                    glm::min(glm::ivec2(*place + static_cast<double>(margin_)) / cell_, own.size - 1);
-                const auto at = static_cast<std::size_t>(cell.y * own.size.x + cell.x);
-                own.light[at] += glm::vec3(share);
-                own.sum[at] += luminanceOf(share);
-                own.square[at] += luminanceOf(share) * luminanceOf(share);
-            });
+            light.trace(
+                i, {camera.position, before}, [&](const glm::dvec3& towards, const glm::dvec3& share, bool inCloud) {
+                    const std::optional<glm::dvec2> place = plane.placeOf(towards, margin_);
+                    if (!place) return;
+                    const glm::ivec2 cell =
+                        glm::min(glm::ivec2(*place + static_cast<double>(margin_)) / cell_, cells - 1);
+                    (inCloud ? own.clouds : own.open).add(static_cast<std::size_t>(cell.y * cells.x + cell.x), share);
+                });
         }
     });
-    for (const Level& own : sums)
-        for (std::size_t i = 0; i < cells; ++i) {
-            finest.light[i] += own.light[i];
-            finest.sum[i] += own.sum[i];
-            finest.square[i] += own.square[i];
-        }
-    levels_.push_back(std::move(finest));
-    addLevels();
+    for (const Kinds& own : sums) {
+        all.open.add(own.open);
+        all.clouds.add(own.clouds);
+    }
+    findSolidAngles(camera, plane, around.clouds, check, all);
+    levels_.push_back(std::move(all.open));
+    addLevels(levels_);
+    if (around.clouds.empty()) return;
+    cloudLevels_.push_back(std::move(all.clouds));
+    addLevels(cloudLevels_);
 }
 
-void Glow::addLevels() {
-    while (levels_.back().size != glm::ivec2(1)) {
-        const Level& fine = levels_.back();
-        Level coarse;
-        coarse.size = (fine.size + 1) / 2;
-        const std::size_t cells = static_cast<std::size_t>(coarse.size.x) * static_cast<std::size_t>(coarse.size.y);
-        coarse.light.assign(cells, glm::vec3(0.0F));
-        for (auto* values : {&coarse.sum, &coarse.square, &coarse.solidAngle}) values->assign(cells, 0.0F);
+void Glow::findSolidAngles(const Camera& camera, const PicturePlane& plane, const Clouds& clouds, const Check& check,
+                           Kinds& kinds) const {
+    tbb::parallel_for(std::size_t{0}, kinds.open.solidAngle.size(), [&](std::size_t i) {
+        const int across = kinds.open.size.x;
+        const glm::dvec2 corner(glm::ivec2(static_cast<int>(i) % across, static_cast<int>(i) / across) * cell_ -
+                                margin_);
+        kinds.open.solidAngle[i] = static_cast<float>(plane.solidAngle(corner, static_cast<double>(cell_)));
+        if (clouds.empty()) return;
+        if (i % 256 == 0) check();
+        double cover = 0.0;
+        for (int k = 0; k < coverRays * coverRays; ++k) {
+            const glm::dvec2 place =
+                corner + (glm::dvec2(k % coverRays, k / coverRays) + 0.5) * (static_cast<double>(cell_) / coverRays);
+            const double depth = clouds.depth(camera.ray(place.x, place.y), std::numeric_limits<double>::infinity());
+            cover -= std::expm1(-depth) / (coverRays * coverRays);
+        }
+        kinds.clouds.solidAngle[i] = kinds.open.solidAngle[i] * static_cast<float>(std::max(leastCover, cover));
+    });
+}
+
+void Glow::addLevels(Levels& levels) {
+    while (levels.back().size != glm::ivec2(1)) {
+        const Level& fine = levels.back();
+        Level coarse((fine.size + 1) / 2);
         for (int y = 0; y < fine.size.y; ++y)
             for (int x = 0; x < fine.size.x; ++x) {
                 const auto from = static_cast<std::size_t>(y * fine.size.x + x);
@@ -104,28 +144,41 @@ void Glow::addLevels() {
                 coarse.square[to] += fine.square[from];
                 coarse.solidAngle[to] += fine.solidAngle[from];
             }
-        levels_.push_back(std::move(coarse));
+        levels.push_back(std::move(coarse));
     }
 }
 
-glm::dvec3 Glow::at(const glm::dvec2& place) const {
+glm::dvec3 Glow::at(const glm::dvec2& place, double cover) const {
+    const glm::dvec3 open = mean(levels_, place, false);
+    if (cloudLevels_.empty() || !(cover > 0.0)) return open;
+    return open + cover * mean(cloudLevels_, place, true);
+}
+
+glm::dvec3 Glow::mean(const Levels& levels, const glm::dvec2& place, bool ofClouds) const {
+    const float least = ofClouds ? fewInClouds : few, enough = ofClouds ? manyInClouds : many;
     const auto placeIn = [&](std::size_t i) {
         return (place + static_cast<double>(margin_)) /
                (static_cast<double>(cell_) * std::pow(2.0, static_cast<double>(i)));
     };
     glm::vec3 result(0.0F);
-    for (std::size_t i = levels_.size(); i-- > 0;) {
-        const Level& level = levels_[i];
+    for (std::size_t i = levels.size(); i-- > 0;) {
+        const Level& level = levels[i];
         // by a wide neighbourhood: cells that have missed their brightest shares would take themselves for sure
-        const std::size_t wide = std::min(i + widerBy, levels_.size() - 1);
-        const float shares = between<float>(levels_[wide].size, placeIn(wide),
-                                            [&](std::size_t at) { return levels_[wide].effective(at); }) /
+        const std::size_t wide = std::min(i + widerBy, levels.size() - 1);
+        const float shares = between<float>(levels[wide].size, placeIn(wide),
+                                            [&](std::size_t at) { return levels[wide].effective(at); }) /
                              std::pow(4.0F, static_cast<float>(wide - i));
-        const bool coarsest = i + 1 == levels_.size();
-        const float weight = coarsest ? 1.0F : glm::smoothstep(few, many, shares);
+        const bool coarsest = i + 1 == levels.size();
+        const float weight = coarsest ? 1.0F : glm::smoothstep(least, enough, shares);
         if (weight == 0.0F) continue;
-        const glm::vec3 light = between<glm::vec3>(
-            level.size, placeIn(i), [&](std::size_t at) { return level.light[at] / level.solidAngle[at]; });
+        glm::vec3 light;
+        if (ofClouds) {  // not of ratios: at the clouds' sides some have hardly anything to be divided by
+            light = between<glm::vec3>(level.size, placeIn(i), [&](std::size_t at) { return level.light[at]; }) /
+                    between<float>(level.size, placeIn(i), [&](std::size_t at) { return level.solidAngle[at]; });
+        } else {
+            light = between<glm::vec3>(level.size, placeIn(i),
+                                       [&](std::size_t at) { return level.light[at] / level.solidAngle[at]; });
+        }
         result = glm::mix(result, light, weight);
     }
     return glm::dvec3(result);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "frame/sun_cover.h"
+#include "lamp/among_clouds.h"
 #include "lamp/beam.h"
 #include "lamp/glow.h"
 #include "lamp/haze.h"
@@ -25,9 +26,15 @@ constexpr int block = 8;
 /// Angle between a block and a lamp beyond which its light is interpolated, over the angle of the block's diagonal.
 constexpr double farBlocks = 5.0;
 
+/// Directions across the map of the shade of a lamp, and those of all maps together.
+constexpr double widestMap = 192.0, narrowestMap = 16.0, allMaps = 192.0 * 192.0 * 8.0;
+/// Rays across a pixel that sees clouds.
+constexpr double fewestRays = 1.0, mostRays = 4.0;
+
 /// A lamp's disc in a pixel.
 struct Disc {
-    float share = 0.0F;  ///< of the pixel
+    float share = 0.0F;   ///< of the pixel
+    float hidden = 0.0F;  ///< of what is behind
     double distance = farAway;
 };
 
@@ -39,18 +46,24 @@ double inverseOver(double x, double y) {
 
 class LampPainter {
   public:
-    LampPainter(const Camera& camera, const Tile& tile, const Surroundings& around)
-        : camera_(camera), tile_(tile), ground_(around.ground), haze_(around.fog, camera.position) {
+    LampPainter(const Camera& camera, const Tile& tile, const Surroundings& around, const Check& check)
+        : camera_(camera),
+          tile_(tile),
+          ground_(around.ground),
+          haze_(around.fog, camera.position),
+          clouds_(around.clouds) {
         for (const scene::Lamp& lamp : around.lamps)
             if (lamp.shines() && !(ground_ && lamp.position.y + lamp.radius <= ground_->height))
                 beams_.emplace_back(lamp);
         discs_.resize(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height));
         light_.resize(discs_.size(), glm::dvec3(0.0));
+        if (!clouds_.empty()) castShadows(check);
         findDiscs();
     }
 
     const std::vector<Beam>& beams() const { return beams_; }
-    const Haze& haze() const { return haze_; }
+    Around around() const { return {haze_, clouds_, ground_}; }
+    bool scatters() const { return !haze_.isClear() || !clouds_.empty(); }
 
     void paint(const Check& check, const Glow* glow) {
         const int firstRow = tile_.y / block, lastRow = (tile_.y + tile_.height - 1) / block;
@@ -66,7 +79,7 @@ class LampPainter {
     void addTo(LayeredImage& image) const {
         const std::array<float*, 3> colours{image.layer("R").data(), image.layer("G").data(), image.layer("B").data()};
         for (std::size_t i = 0; i < light_.size(); ++i) {
-            const double hidden = static_cast<double>(discs_[i].share);
+            const double hidden = static_cast<double>(discs_[i].hidden);
             for (std::size_t c = 0; c < 3; ++c) {
                 const double before = static_cast<double>(colours[c][i]);
                 colours[c][i] = static_cast<float>(before * (1.0 - hidden) + light_[i][static_cast<glm::length_t>(c)]);
@@ -94,6 +107,17 @@ class LampPainter {
         return std::min(endOf(ray), covered ? discs_[indexOf(pixel)].distance : farAway);
     }
 
+    void castShadows(const Check& check) {
+        const double edge = std::sqrt(allMaps / static_cast<double>(beams_.size()));
+        for (Beam& beam : beams_)
+            beam.shadeBy(clouds_, static_cast<int>(std::clamp(edge, narrowestMap, widestMap)), check);
+        const double pixel = glm::length(rayOf(0.5 * glm::dvec2(camera_.width, camera_.height)).direction -
+                                         rayOf(0.5 * glm::dvec2(camera_.width, camera_.height) + 1.0).direction);
+        const double away = std::max(0.0, glm::length(clouds_.middle() - camera_.position) - clouds_.radius());
+        raysAmongClouds_ =
+            static_cast<int>(std::clamp(std::round(2.0 * pixel * away / clouds_.finestVoxel()), fewestRays, mostRays));
+    }
+
     void findDiscs() {
         for (const Beam& beam : beams_) {
             const glm::dvec3 way = beam.position() - camera_.position;
@@ -102,13 +126,15 @@ class LampPainter {
                 continue;
             const glm::dvec3 direction = way / distance;
             const double angle = std::asin(std::min(1.0, beam.radius() / distance));
-            const glm::dvec3 radiance = beam.intensity(-direction) /
+            const double clear = clouds_.depth({camera_.position, direction}, distance - beam.radius());
+            const glm::dvec3 radiance = std::exp(-clear) * beam.intensity(-direction) /
                                         (std::numbers::pi * beam.radius() * beam.radius()) *
                                         glm::exp(-haze_.depth({camera_.position, direction}, distance - beam.radius()));
             for (const frame::CoveredPixel& seen : frame::sunCover(camera_, tile_, direction, angle)) {
                 Disc& disc = discs_[indexOf(seen.pixel)];
                 light_[indexOf(seen.pixel)] += seen.share * radiance;
                 disc.share = std::min(1.0F, disc.share + static_cast<float>(seen.share));
+                disc.hidden = std::min(1.0F, disc.hidden + static_cast<float>(seen.share * std::exp(-clear)));
                 disc.distance = std::min(disc.distance, distance - beam.radius());
             }
         }
@@ -124,7 +150,7 @@ class LampPainter {
             if (!(way.y > 0.0)) continue;
             const glm::dvec3 direction = way / distance, intensity = beam.intensity(-direction);
             if (intensity == glm::dvec3(0.0)) continue;
-            irradiance += intensity * (direction.y / (distance * distance)) *
+            irradiance += intensity * (direction.y / (distance * distance)) * beam.passed(-direction, distance) *
                           (haze_.isClear() ? glm::dvec3(1.0) : glm::exp(-haze_.depth({point, direction}, distance)));
         }
         return ground_->albedo * std::numbers::inv_pi * irradiance * glm::exp(-haze_.depth(ray, metres));
@@ -211,12 +237,14 @@ class LampPainter {
         }
         const auto grounded = std::ranges::count_if(ends, [](double end) { return end < farAway; });
         const bool mixed = grounded != 0 && grounded != 4;
+        if (seesClouds(first)) return paintAmongClouds(first, glow);
         std::vector<const Beam*> near, beams;
         std::array<glm::dvec3, 4> far{};
         if (!haze_.isClear()) {
             for (const Beam& beam : beams_) {
-                if (mixed || !beam.isPoint() || !isFar(beam, rays)) {
-                    (beam.isPoint() ? near : beams).push_back(&beam);
+                const bool smooth = beam.isPoint() && !beam.isShaded();
+                if (mixed || !smooth || !isFar(beam, rays)) {
+                    (smooth ? near : beams).push_back(&beam);
                     continue;
                 }
                 for (std::size_t k = 0; k < 4; ++k)
@@ -226,14 +254,54 @@ class LampPainter {
         const std::vector<BeamCorners> corners = cornersOf(first, beams);
         for (int i = 0; i < block * block; ++i) {
             const glm::ivec2 within(i % block, i / block), pixel = first + within;
-            if (pixel.x < tile_.x || pixel.y < tile_.y || pixel.x >= tile_.x + tile_.width ||
-                pixel.y >= tile_.y + tile_.height)
-                continue;
+            if (!isWanted(pixel)) continue;
             const glm::dvec2 share = glm::dvec2(within) / double(block);
             glm::dvec3& light = light_[indexOf(pixel)];
             light += glm::mix(glm::mix(far[0], far[1], share.x), glm::mix(far[2], far[3], share.x), share.y);
             light += paintPixel(pixel, near, mixed, glow);
             for (const BeamCorners& beam : corners) light += beamIn(pixel, within, beam);
+        }
+    }
+
+    bool isWanted(const glm::ivec2& pixel) const {
+        return pixel.x >= tile_.x && pixel.y >= tile_.y && pixel.x < tile_.x + tile_.width &&
+               pixel.y < tile_.y + tile_.height;
+    }
+
+    /// Whether there may be clouds in a block.
+    bool seesClouds(const glm::ivec2& first) const {
+        if (clouds_.empty()) return false;
+        std::vector<CloudPart> parts;
+        constexpr int rays = block / 2;
+        for (int i = 0; i < (rays + 1) * (rays + 1) && parts.empty(); ++i) {
+            const Ray ray = rayOf(glm::dvec2(first) + 2.0 * glm::dvec2(i % (rays + 1), i / (rays + 1)));
+            clouds_.addParts(ray, endOf(ray), parts);
+        }
+        return !parts.empty();
+    }
+
+    void paintAmongClouds(const glm::ivec2& first, const Glow* glow) {
+        const int rays = raysAmongClouds_;
+        std::vector<PassedBeam> beams(beams_.size());
+        for (int i = 0; i < block * block; ++i) {
+            const glm::ivec2 pixel = first + glm::ivec2(i % block, i / block);
+            if (!isWanted(pixel)) continue;
+            glm::dvec3 light(0.0);
+            double clear = 0.0;
+            for (int k = 0; k < rays * rays; ++k) {
+                const glm::dvec2 place = glm::dvec2(pixel) + (glm::dvec2(k % rays, k / rays) + 0.5) / double(rays);
+                const Ray ray = rayOf(place);
+                for (std::size_t b = 0; b < beams_.size(); ++b)
+                    beams[b] = {&beams_[b], missIn(place, 1.0 / rays, ray, beams_[b].position())};
+                const SeenAmongClouds seen = scatteredAmongClouds(around(), beams, ray, endIn(pixel, ray));
+                light += seen.light;
+                clear += seen.clear;
+                const double metres = endOf(ray), open = 1.0 - static_cast<double>(discs_[indexOf(pixel)].share);
+                if (metres < farAway) light += open * seen.clear * groundSeen(ray, metres);
+            }
+            const double each = 1.0 / (rays * rays);
+            light_[indexOf(pixel)] += each * light;
+            if (glow != nullptr) light_[indexOf(pixel)] += glow->at(glm::dvec2(pixel) + 0.5, 1.0 - each * clear);
         }
     }
 
@@ -255,7 +323,7 @@ class LampPainter {
         for (const Beam* beam : near)
             light += onceScattered(haze_, *beam, ray, {0.0, end},
                                    missIn(glm::dvec2(pixel) + 0.5, 1.0, ray, beam->position()));
-        if (glow != nullptr) light += glow->at(glm::dvec2(pixel) + 0.5);
+        if (glow != nullptr) light += glow->at(glm::dvec2(pixel) + 0.5, 0.0);
         if (ground_) light += (1.0 - static_cast<double>(disc.share)) * groundIn(pixel, mixed ? 4 : 1);
         return light;
     }
@@ -264,6 +332,8 @@ class LampPainter {
     Tile tile_;
     std::optional<scene::Ground> ground_;
     Haze haze_;
+    Clouds clouds_;
+    int raysAmongClouds_ = 1;
     std::vector<Beam> beams_;
     std::vector<Disc> discs_;
     std::vector<glm::dvec3> light_;
@@ -273,11 +343,11 @@ class LampPainter {
 
 void addLamps(LayeredImage& image, const Camera& camera, const Tile& tile, const Surroundings& around,
               const Check& check) {
-    LampPainter painter(camera, tile, around);
+    LampPainter painter(camera, tile, around, check);
     if (painter.beams().empty()) return;
     std::optional<Glow> glow;
-    if (around.paths > 0 && !painter.haze().isClear())
-        glow.emplace(camera, painter.haze(), painter.beams(), around.ground,
+    if (around.paths > 0 && painter.scatters())
+        glow.emplace(camera, painter.around(), painter.beams(),
                      Glow::Paths{static_cast<std::uint64_t>(around.paths), around.seed}, check);
     painter.paint(check, glow ? &*glow : nullptr);
     painter.addTo(image);

@@ -5,6 +5,7 @@
 
 #include "base/image.h"
 #include "base/interrupt.h"
+#include "lamp/clouds.h"
 #include "scene/scene.h"
 #include "view/camera.h"
 #include "view/view.h"
@@ -16,12 +17,13 @@ struct Surroundings {
     const std::vector<scene::Lamp>& lamps;
     const scene::Fog& fog;
     std::optional<scene::Ground> ground;  ///< a plane
-    int paths = 0;                        ///< paths of light that fog and ground scatter more than once; 0: none
+    int paths = 0;                        ///< paths of light that is scattered more than once; 0: none
     std::uint64_t seed = 1;
+    std::vector<Cloud> clouds{};
 };
 
-/// Adds the light of lamps to the part `tile` of a picture without clouds: their discs, what the ground reflects of
-/// them and what the fog scatters of them towards the eye. Errors: what `check` throws.
+/// Adds the light of lamps to the part `tile` of a picture: their discs, what the ground reflects of them, and what fog
+/// and clouds scatter of them towards the eye. Errors: what `check` throws.
 void addLamps(LayeredImage& image, const Camera& camera, const Tile& tile, const Surroundings& around,
               const Check& check);
 

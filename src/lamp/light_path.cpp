@@ -12,8 +12,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// Events after which a path ends.
-constexpr int mostEvents = 300;
+/// Events after which a path ends, in fog and among clouds.
+constexpr int mostEvents = 300, mostEventsInClouds = 1000;
 /// Share of its first weight below which a path goes on by chance.
 constexpr double thin = 0.05;
 /// Nearer to the eye than this share of the mean free path an event does not grow any more.
@@ -54,6 +54,7 @@ struct LightPaths::Walk {
     double first = 0.0;  ///< sum of the weight at the lamp
     int events = 0;
     bool onGround = false;
+    std::optional<std::size_t> cloud;  ///< that it is in
 
     glm::dvec4 numbers() {
         ++key.y;
@@ -61,9 +62,8 @@ struct LightPaths::Walk {
     }
 };
 
-LightPaths::LightPaths(const Haze& haze, std::span<const Beam> beams, const std::optional<scene::Ground>& ground,
-                       std::uint64_t count, std::uint64_t seed)
-    : haze_(haze), beams_(beams), ground_(ground), count_(count), seed_(seed) {
+LightPaths::LightPaths(const Around& around, std::span<const Beam> beams, std::uint64_t count, std::uint64_t seed)
+    : haze_(around.haze), clouds_(around.clouds), ground_(around.ground), beams_(beams), count_(count), seed_(seed) {
     double sum = 0.0;
     for (const Beam& beam : beams) upTo_.push_back(sum += sumOf(beam.power()));
     for (double& each : upTo_) each /= sum;
@@ -98,7 +98,14 @@ bool LightPaths::step(Walk& walk) const {
     const bool falls = ground_ && walk.ray.direction.y < 0.0;
     if (falls) high = std::min(high, (walk.ray.origin.y - ground_->height) / -walk.ray.direction.y);
     const bool grounded = falls && high < farAway;
-    if (haze_.depth(walk.ray, high)[channel] <= wanted) return grounded && meetGround(walk, high, chances);
+    const std::optional<Meeting> meeting = meetCloud(walk, high);
+    if (meeting) high = meeting->metres;
+    if (haze_.isClear() || haze_.depth(walk.ray, high)[channel] <= wanted) {
+        if (!meeting) return grounded && meetGround(walk, high, chances);
+        walk.onGround = false;
+        walk.cloud = meeting->cloud;
+        return goTo(walk, high, clouds_[meeting->cloud].albedo, chances);
+    }
     double metres = 0.5 * high;
     const double here = haze_.extinction(walk.ray.origin)[channel];
     if (here > 0.0) metres = std::min(metres, wanted / here);
@@ -117,51 +124,72 @@ bool LightPaths::step(Walk& walk) const {
     walk.weight *= haze_.scattering(point) * passed / density;
     walk.ray.origin = point;
     walk.onGround = false;
+    walk.cloud.reset();
+    return true;
+}
+
+/// The event in a cloud, if there is one before `limit`.
+std::optional<Meeting> LightPaths::meetCloud(Walk& walk, double limit) const {
+    if (clouds_.empty()) return {};
+    return clouds_.meet(walk.ray, limit, [&] { return -std::log(1.0 - std::min(walk.numbers().x, 1.0 - 1e-9)); });
+}
+
+/// To something that reflects or scatters at a distance which the fog has let the path pass.
+bool LightPaths::goTo(Walk& walk, double metres, const glm::dvec3& albedo, const glm::dvec3& chances) const {
+    const glm::dvec3 passed = haze_.isClear() ? glm::dvec3(1.0) : glm::exp(-haze_.depth(walk.ray, metres));
+    const double density = glm::dot(chances, passed);
+    if (!(density > 0.0)) return false;
+    walk.weight *= albedo * passed / density;
+    walk.ray.origin += metres * walk.ray.direction;
     return true;
 }
 
 bool LightPaths::meetGround(Walk& walk, double metres, const glm::dvec3& chances) const {
-    const glm::dvec3 passed = glm::exp(-haze_.depth(walk.ray, metres));
-    const double density = glm::dot(chances, passed);
-    if (!(density > 0.0)) return false;
-    walk.weight *= ground_->albedo * passed / density;
-    walk.ray.origin += metres * walk.ray.direction;
+    if (!goTo(walk, metres, ground_->albedo, chances)) return false;
     walk.ray.origin.y = ground_->height;
     walk.onGround = true;
+    walk.cloud.reset();
     return true;
 }
 
-void LightPaths::show(const Walk& walk, const glm::dvec3& eye, const Seen& seen) const {
-    const glm::dvec3 way = eye - walk.ray.origin;
+/// What an event sends of the path's light into a direction [1/sr].
+glm::dvec3 LightPaths::response(const Walk& walk, const glm::dvec3& direction) const {
+    if (walk.onGround) return glm::dvec3(std::max(0.0, direction.y) / pi);
+    if (walk.cloud) return clouds_[*walk.cloud].phase.between(walk.ray.direction, direction);
+    return haze_.turned(walk.ray.origin, glm::dot(walk.ray.direction, direction)) /
+           glm::max(haze_.scattering(walk.ray.origin), glm::dvec3(1e-300));
+}
+
+void LightPaths::show(const Walk& walk, const Eye& eye, const Seen& seen) const {
+    const glm::dvec3 way = eye.position - walk.ray.origin;
     const double distance = glm::length(way);
     if (!(distance > 0.0)) return;
     const glm::dvec3 direction = way / distance;
-    glm::dvec3 response(0.0);
-    if (walk.onGround) {
-        response = glm::dvec3(std::max(0.0, direction.y) / pi);
-    } else {
-        const double cosine = glm::dot(walk.ray.direction, direction);
-        response =
-            haze_.turned(walk.ray.origin, cosine) / glm::max(haze_.scattering(walk.ray.origin), glm::dvec3(1e-300));
-    }
-    const glm::dvec3 extinction = haze_.extinction(eye);
+    const glm::dvec3 extinction = haze_.extinction(eye.position);
     const double free = sumOf(extinction) > 0.0 ? 3.0 / sumOf(extinction) : 0.0;
-    const double least = nearShare * free;
-    const glm::dvec3 passed = glm::exp(-haze_.depth({eye, -direction}, distance));
-    seen(-direction, walk.weight * response * passed / (distance * distance + least * least));
+    const double least = nearShare * free, clear = eye.clouds.transmittance(-direction, distance);
+    if (clear < 1e-6) return;
+    const glm::dvec3 passed = glm::exp(-haze_.depth({eye.position, -direction}, distance));
+    seen(-direction, clear * walk.weight * response(walk, direction) * passed / (distance * distance + least * least),
+         walk.cloud.has_value());
 }
 
 void LightPaths::turn(Walk& walk) const {
     const glm::dvec4 u = walk.numbers();
+    if (walk.cloud) {
+        walk.ray.direction = clouds_[*walk.cloud].phase.sample(walk.ray.direction, u);
+        return;
+    }
     walk.ray.direction = walk.onGround
                              ? around({0.0, 1.0, 0.0}, std::sqrt(u.x), u.y)
                              : around(walk.ray.direction, cosineOf(haze_.meanCosine(walk.ray.origin, u.z), u.x), u.y);
 }
 
-void LightPaths::trace(std::uint64_t path, const glm::dvec3& eye, const Seen& seen) const {
+void LightPaths::trace(std::uint64_t path, const Eye& eye, const Seen& seen) const {
     Walk walk;
     if (!start(walk, path)) return;
-    while (walk.events < mostEvents && step(walk)) {
+    const int most = clouds_.empty() ? mostEvents : mostEventsInClouds;
+    while (walk.events < most && step(walk)) {
         if (++walk.events > 1) show(walk, eye, seen);
         const double left = sumOf(walk.weight) / walk.first;
         if (!(left > 0.0)) return;

@@ -10,8 +10,9 @@ namespace {
 
 /// Beyond it in u there is less than e^−10 of what there may be.
 constexpr double farthest = 10.0;
-/// Width of the panels of the rule in u; where the light of a lamp fades towards the sides, there are more.
-constexpr double panel = 1.25, fadingPanel = 0.5;
+/// Width of the panels of the rule in u; where the light of a lamp fades towards the sides, there are more, and where
+/// clouds throw shadows, still more.
+constexpr double panel = 1.25, fadingPanel = 0.5, shadedPanel = 0.2;
 /// Optical depth at which nothing of the light is left.
 constexpr double opaque = 40.0;
 
@@ -44,7 +45,7 @@ struct Passing {
         const double share = beam.share(travel);
         if (!(share > 0.0)) return glm::dvec3(0.0);
         const glm::dvec3 depth = haze.depth(ray, distance) + haze.depth({point, -travel}, away);
-        return haze.turned(point, -std::tanh(u)) * glm::exp(-depth) * (share / away);
+        return haze.turned(point, -std::tanh(u)) * glm::exp(-depth) * (share / away * beam.passed(travel, away));
     }
 };
 
@@ -62,7 +63,7 @@ glm::dvec3 onceScattered(const Haze& haze, const Beam& beam, const Ray& ray, con
     beam.addCorners(ray, corners);
     haze.addCorners(ray, corners);
     std::ranges::sort(corners);
-    const double width = beam.isPoint() ? panel : fadingPanel;
+    const double width = beam.isShaded() ? shadedPanel : (beam.isPoint() ? panel : fadingPanel);
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
         const double from = std::max(corners[i], part.begin), to = std::min(corners[i + 1], part.end);

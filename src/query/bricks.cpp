@@ -179,17 +179,15 @@ std::uint64_t BrickField::bytes() const {
            pool_.size() * sizeof(std::uint16_t);
 }
 
-double BrickField::brickIntegral(const glm::ivec3& number, const VoxelLine& line, double length) const {
-    const Brick& brick = bricks_[entryOf(number)];
-    const double constant = length * static_cast<double>(brick.low);
-    if (!(brick.step > 0.0F)) return constant;
+template <typename Visit>
+void BrickField::visitCells(const Brick& brick, const glm::ivec3& number, const VoxelLine& line, double length,
+                            const Visit& visit) const {
     const std::uint16_t* values = &pool_[valuesOfBrick * brick.values];
     const double unit = std::exp2(-brick.level);  // of a voxel, in texels
     const glm::dvec3 group(edge * ((number >> brick.level) << brick.level));
     const glm::vec3 origin(unit * (line.start - group)), v(unit * line.velocity);
     Planes<glm::vec3> planes(origin, v);
     const auto last = static_cast<float>(length);
-    double sum = 0.0;
     for (float t = 0.0F; t < last;) {
         const float end = std::clamp(planes.take(), t, last);
         const float span = end - t, middle = t + 0.5F * span;
@@ -197,37 +195,96 @@ double BrickField::brickIntegral(const glm::ivec3& number, const VoxelLine& line
         const glm::ivec3 cell = glm::clamp(glm::ivec3(glm::floor(centre)), glm::ivec3(0), glm::ivec3(edge - 1));
         const Corners at(values + (cell.z * corners + cell.y) * corners + cell.x);
         const glm::vec3 inCell = centre - glm::vec3(cell), aside = gauss * span * v;
-        sum += static_cast<double>(span * (at.at(inCell - aside) + at.at(inCell + aside)));
+        if (!visit(t, span, at.at(inCell - aside), at.at(inCell + aside))) return;
         t = end;
     }
+}
+
+double BrickField::brickIntegral(const glm::ivec3& number, const VoxelLine& line, double length) const {
+    const Brick& brick = bricks_[entryOf(number)];
+    const double constant = length * static_cast<double>(brick.low);
+    if (!(brick.step > 0.0F)) return constant;
+    double sum = 0.0;
+    visitCells(brick, number, line, length, [&](float /*begin*/, float span, float near, float far) {
+        sum += static_cast<double>(span * (near + far));
+        return true;
+    });
     return 0.5 * sum * static_cast<double>(brick.step) + constant;
 }
 
-double BrickField::integral(const VoxelLine& line, double begin, double end) const {
+double BrickField::brickReach(const glm::ivec3& number, const VoxelLine& line, double length, double wanted) const {
+    const Brick& brick = bricks_[entryOf(number)];
+    const auto low = static_cast<double>(brick.low), step = static_cast<double>(brick.step);
+    if (!(step > 0.0)) return std::min(length, wanted / low);
+    double sum = 0.0, found = length;
+    visitCells(brick, number, line, length, [&](float begin, float span, float near, float far) {
+        const double all = static_cast<double>(span), one = low + step * static_cast<double>(near),
+                     other = low + step * static_cast<double>(far), more = 0.5 * all * (one + other);
+        if (sum + more < wanted || !(all > 0.0)) {
+            sum += more;
+            return true;
+        }
+        // first + slope · t, of which the integral is wanted
+        const double slope = (other - one) / (2.0 * static_cast<double>(gauss) * all);
+        const double first = std::max(0.0, 0.5 * (one + other) - 0.5 * slope * all), left = wanted - sum;
+        const double root = std::sqrt(std::max(0.0, first * first + 2.0 * slope * left));
+        found = static_cast<double>(begin) + std::clamp(2.0 * left / std::max(first + root, 1e-300), 0.0, all);
+        return false;
+    });
+    return found;
+}
+
+bool BrickField::clip(const VoxelLine& line, double& begin, double& end) const {
     // in cells between voxel centres, of which the first begins at the middle of voxel 0
     const glm::dvec3 origin = line.start - 0.5, limit(size_ - 1);
     for (int axis = 0; axis < 3; ++axis) {
         if (std::abs(line.velocity[axis]) < 1e-30) {
-            if (!(origin[axis] > 0.0 && origin[axis] < limit[axis])) return 0.0;
+            if (!(origin[axis] > 0.0 && origin[axis] < limit[axis])) return false;
             continue;
         }
         const double a = -origin[axis] / line.velocity[axis], b = (limit[axis] - origin[axis]) / line.velocity[axis];
         begin = std::max(begin, std::min(a, b));
         end = std::min(end, std::max(a, b));
     }
-    if (!(begin < end)) return 0.0;
-    const glm::dvec3 start = origin + begin * line.velocity;
+    return begin < end;
+}
+
+template <typename Visit>
+void BrickField::visitBricks(const VoxelLine& line, double begin, double end, const Visit& visit) const {
+    if (!clip(line, begin, end)) return;
+    const glm::dvec3 start = line.start - 0.5 + begin * line.velocity;
     Planes<glm::dvec3> planes(start / double(edge), line.velocity / double(edge));
     const double length = end - begin;
-    double sum = 0.0;
     for (double t = 0.0; t < length;) {
         const double next = std::clamp(planes.take(), t, length);
         const glm::dvec3 middle = start + 0.5 * (t + next) * line.velocity;
         const glm::ivec3 number = glm::clamp(glm::ivec3(glm::floor(middle / double(edge))), glm::ivec3(0), count_ - 1);
-        sum += brickIntegral(number, {start + t * line.velocity, line.velocity}, next - t);
+        if (!visit(number, VoxelLine{start + t * line.velocity, line.velocity}, begin + t, next - t)) return;
         t = next;
     }
+}
+
+double BrickField::integral(const VoxelLine& line, double begin, double end) const {
+    double sum = 0.0;
+    visitBricks(line, begin, end, [&](const glm::ivec3& number, const VoxelLine& part, double, double length) {
+        sum += brickIntegral(number, part, length);
+        return true;
+    });
     return sum;
+}
+
+double BrickField::reach(const VoxelLine& line, double begin, double end, double wanted) const {
+    double sum = 0.0, found = std::numeric_limits<double>::infinity();
+    visitBricks(line, begin, end, [&](const glm::ivec3& number, const VoxelLine& part, double from, double length) {
+        const double more = brickIntegral(number, part, length);
+        if (sum + more < wanted || !(more > 0.0)) {
+            sum += more;
+            return true;
+        }
+        found = from + brickReach(number, part, length, wanted - sum);
+        return false;
+    });
+    return found;
 }
 
 }  // namespace lumulus::query

@@ -51,6 +51,13 @@ class BrickField {
     /// voxel centres the density is a cubic polynomial of the distance, which Gauss's two points integrate exactly.
     double integral(const VoxelLine& line, double begin, double end) const;
 
+    /// The distance between `begin` and `end` at which that integral has grown to `wanted`; infinite where it stays
+    /// below. Within a cell the density is taken for linear.
+    double reach(const VoxelLine& line, double begin, double end, double wanted) const;
+
+    /// Clips a part of a line to where the field is. Returns false where nothing is left.
+    bool clip(const VoxelLine& line, double& begin, double& end) const;
+
   private:
     /// The density is low + step · value.
     struct Brick {
@@ -63,6 +70,17 @@ class BrickField {
     std::size_t entryOf(const glm::ivec3& brick) const;
     /// Over a part of the line within one brick; the line's coordinates count from the middle of voxel 0.
     double brickIntegral(const glm::ivec3& number, const VoxelLine& line, double length) const;
+    /// As reach(), within one brick whose integral is `wanted` or more.
+    double brickReach(const glm::ivec3& number, const VoxelLine& line, double length, double wanted) const;
+    /// Goes from brick to brick: `visit(number, line, begin, length)` has the line from there on, counted from the
+    /// middle of voxel 0, and returns whether to go on.
+    template <typename Visit>
+    void visitBricks(const VoxelLine& line, double begin, double end, const Visit& visit) const;
+    /// Goes from cell to cell within a brick that has values: `visit(begin, span, near, far)` has the values at Gauss's
+    /// two points, over the brick's step, and returns whether to go on.
+    template <typename Visit>
+    void visitCells(const Brick& brick, const glm::ivec3& number, const VoxelLine& line, double length,
+                    const Visit& visit) const;
 
     glm::ivec3 size_{0};
     glm::ivec3 count_{0};               ///< bricks along x, y, z

@@ -12,10 +12,6 @@ namespace {
 /// Refuses lamps among what they do not light yet.
 void requireDrawableLamps(const scene::Scene& scene) {
     if (std::ranges::none_of(scene.lamps, &scene::Lamp::shines)) return;
-    if (!scene.clouds.empty())
-        throw InputError("lamps do not light clouds yet", scene.source + ", lamp",
-                         "write cloud = [] for a scene without clouds, use lumulus reference, or leave lamps out: "
-                         "--set lamp=[]");
     if (scene.sky.model == scene::SkyModel::atmosphere)
         throw InputError("lamps are not drawn in the air of an atmosphere yet", scene.source + ", lamp",
                          "write sky.model = \"constant\", or use lumulus reference");

@@ -189,15 +189,17 @@ void Renderer::State::show(ViewState::State& state, const View& view) const {
     state.spacing = painter ? painter->samplingSpacing(*world, state.camera) : 1;
 }
 
-void Renderer::State::addLamps(LayeredImage& picture, const Camera& seen, const View& view) const {
+void Renderer::State::addLamps(LayeredImage& picture, const Camera& seen, const View& view) {
     if (seen.projection == scene::Projection::orthographic)
         throw InputError("lamps are not drawn in orthographic views", "camera.projection",
                          "use a perspective camera, or leave them out: --set lamp=[]");
     report("lamps", 0, 1);
-    // as many as the photons of a map, whose light is not needed without clouds
+    // as many as the photons of the map of sun and sky
     const std::int64_t paths = std::min<std::int64_t>(world->photonMap.photons / (view.coarse ? 16 : 1), 100'000'000);
     lamp::addLamps(picture, seen, drawnTile(view),
-                   {lamps, world->fog, world->lights.ground, static_cast<int>(paths), world->photonMap.seed}, check);
+                   {lamps, world->fog, world->lights.ground, static_cast<int>(paths), world->photonMap.seed,
+                    cloudsForLamps(context, *world, check)},
+                   check);
     report("lamps", 1, 1);
 }
 

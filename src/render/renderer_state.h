@@ -56,7 +56,7 @@ struct Renderer::State {
     /// Sets what the view state keeps of a view.
     void show(ViewState::State& state, const View& view) const;
     /// Adds the light of lamps to a picture of a view.
-    void addLamps(LayeredImage& picture, const Camera& seen, const View& view) const;
+    void addLamps(LayeredImage& picture, const Camera& seen, const View& view);
     int raysAcross(const Camera& camera, int most) const;
     void lightChanged();
 };

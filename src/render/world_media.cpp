@@ -60,8 +60,10 @@ query::BrickField readBack(gpu::Context& context, const cloud::Asset& asset, Poo
     return query::BrickField(volume, check);
 }
 
+/// One for each visible instance.
 template <class Extinction>
-query::Media mediaWith(gpu::Context& context, World& world, const Check& check, const Extinction& extinctionOf) {
+std::vector<query::PlacedField> placedFields(gpu::Context& context, World& world, const Check& check,
+                                             const Extinction& extinctionOf) {
     std::vector<query::PlacedField> placed;
     Pools pools;
     for (const std::size_t i : world.visible()) {
@@ -71,14 +73,23 @@ query::Media mediaWith(gpu::Context& context, World& world, const Check& check, 
         placed.push_back(
             {field, instance.voxelToMetres, instance.origin + instance.offset, extinctionOf(instance.medium)});
     }
-    return {query::Clouds(std::move(placed)), world.fog,
+    return placed;
+}
+
+double wholeExtinction(const phase::ScatteringMedium& medium) {
+    return medium.extinction;
+}
+
+template <class Extinction>
+query::Media mediaWith(gpu::Context& context, World& world, const Check& check, const Extinction& extinctionOf) {
+    return {query::Clouds(placedFields(context, world, check, extinctionOf)), world.fog,
             world.lights.ground ? std::optional(world.lights.ground->height) : std::nullopt};
 }
 
 }  // namespace
 
 query::Media mediaOf(gpu::Context& context, World& world, const Check& check) {
-    return mediaWith(context, world, check, [](const phase::ScatteringMedium& medium) { return medium.extinction; });
+    return mediaWith(context, world, check, wholeExtinction);
 }
 
 query::Media straightMediaOf(gpu::Context& context, World& world, const Check& check) {
@@ -86,6 +97,16 @@ query::Media straightMediaOf(gpu::Context& context, World& world, const Check& c
         const double least = std::min(medium.albedo.x, std::min(medium.albedo.y, medium.albedo.z));
         return medium.extinction * (1.0 - static_cast<double>(medium.tables.forwardFraction) * least);
     });
+}
+
+std::vector<lamp::Cloud> cloudsForLamps(gpu::Context& context, World& world, const Check& check) {
+    std::vector<query::PlacedField> placed = placedFields(context, world, check, wholeExtinction);
+    std::vector<lamp::Cloud> clouds;
+    for (const std::size_t i : world.visible()) {
+        const phase::ScatteringMedium& medium = world.instances[i].medium;
+        clouds.push_back({std::move(placed[clouds.size()]), medium.albedo, lamp::CloudPhase(medium.tables)});
+    }
+    return clouds;
 }
 
 }  // namespace lumulus

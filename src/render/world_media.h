@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/interrupt.h"
+#include "lamp/clouds.h"
 #include "query/media.h"
 #include "render/world.h"
 
@@ -13,5 +14,8 @@ query::Media mediaOf(gpu::Context& context, World& world, const Check& check);
 /// The same for light that the photon walk takes for straight: what scatters by less than `forward_cut` goes on, as far
 /// as no channel absorbs it.
 query::Media straightMediaOf(gpu::Context& context, World& world, const Check& check);
+
+/// The clouds of a world as lamps light them, read back as above. Errors: as above.
+std::vector<lamp::Cloud> cloudsForLamps(gpu::Context& context, World& world, const Check& check);
 
 }  // namespace lumulus

@@ -119,6 +119,16 @@ TEST(LampPicture, APointScattersOnce) {
     EXPECT_LT(std::abs(found.relative), 1e-4);
 }
 
+TEST(LampPicture, APanoramaHasLampsAllAround) {
+    std::string text =
+        around + pointLamp + "[[lamp]]\nposition = [-20, 24, 50]\nradius = 0.3\npower = [200, 700, 500]\n";
+    text.replace(text.find("vertical_fov = 50"), 17, "projection = \"panorama\"");
+    const scene::Scene scene = scene::parseScene(text, "x.toml");
+    const Distance found = distanceOf(drawn(scene, 0), truth(scene, 1500, 1));
+    EXPECT_LT(std::abs(found.bias), 0.02);
+    EXPECT_LT(std::abs(found.relative), 1e-3);
+}
+
 /// Of the error, most is noise of the reference beside the lamps, which few of its paths meet.
 TEST(LampPicture, BeamsScatterOnce) {
     const Distance found = compared(beams, 2000, 1, 0);

@@ -128,6 +128,26 @@ TEST(QueryClouds, PartsOfAWayAddUp) {
     }
 }
 
+/// Up to the distance that is found the integral is what was asked for; what the whole line does not have is not found.
+TEST(QueryClouds, ADepthIsReachedWhereTheIntegralHasIt) {
+    const vdb::Volume volume = test::lumpyVolume(glm::ivec3(40, 33, 29), glm::dmat3(1.0), 3);
+    const BrickField field(volume);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> uniform(0.01, 0.99);
+    for (int i = 0; i < 300; ++i) {
+        const glm::dvec3 from = pointIn(random, glm::dvec3(-10.0), glm::dvec3(50.0));
+        const glm::dvec3 to = pointIn(random, glm::dvec3(-10.0), glm::dvec3(50.0));
+        const VoxelLine line{from, glm::normalize(to - from)};
+        const double length = glm::length(to - from), whole = field.integral(line, 0.0, length);
+        const double wanted = uniform(random) * whole;
+        if (!(whole > 1e-3)) continue;
+        const double at = field.reach(line, 0.0, length, wanted);
+        ASSERT_TRUE(at > 0.0 && at <= length) << i;
+        EXPECT_NEAR(field.integral(line, 0.0, at), wanted, 0.02 * whole + 1e-3) << i;
+        EXPECT_FALSE(std::isfinite(field.reach(line, 0.0, length, 1.001 * whole))) << i;
+    }
+}
+
 TEST(QueryClouds, HalfTheDensityTwiceIsTheWhole) {
     const vdb::Volume volume = test::lumpyVolume(glm::ivec3(32), glm::dmat3(1.0), 9);
     const auto field = fieldOf(volume);
