@@ -218,7 +218,7 @@ const std::vector<Key>& schema() {
         for (const auto& part :
              {imageAndCameraKeys(), timeKeys(), sunAndSkyKeys(), atmosphereKeys(), mapKeys(), groundKeys(), cloudKeys(),
               sequenceKeys(), phaseKeys(), fieldKeys(), preparationKeys(), storageKeys(), detailKeys(),
-              photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys(), lampKeys()}) {
+              photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys(), lampKeys(), meshKeys()}) {
             keys.insert(keys.end(), part.begin(), part.end());
         }
         return keys;
