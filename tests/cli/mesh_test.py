@@ -41,7 +41,7 @@ class MeshTest(CliTest):
     def layers(self, command, text, *options, name="a.exr"):
         result = self.run_lumulus(command, self.scene(text), *SMALL, "-o", self.out / name, *options)
         self.assertEqual(result.returncode, 0, result.stderr)
-        return read_exr(self.out / name)[2]
+        return {layer: numpy.asarray(values) for layer, values in read_exr(self.out / name)[2].items()}
 
 
 class Pictures(MeshTest):
@@ -54,15 +54,15 @@ class Pictures(MeshTest):
             seen = self.layers("render", text)
             self.assertGreater(numpy.count_nonzero(seen["mesh.id"] == 1), 60)
             for channel in "RGB":
-                mean = float(numpy.mean(numpy.asarray(seen[channel])[numpy.asarray(seen["mesh.id"]) == 1]))
+                mean = float(numpy.mean(seen[channel][seen["mesh.id"] == 1]))
                 self.assertLess(abs(mean - 1), 0.012, f"metallic {metallic}")
-                self.assertLess(float(numpy.max(numpy.abs(numpy.asarray(seen[channel]) - 1))), 0.15)
+                self.assertLess(numpy.max(numpy.abs(seen[channel] - 1)), 0.15)
 
     def test_layers_of_a_ball(self):
         self.ball("grey")
         text = SCENE.format(away=10, sky=[0.2, 0.3, 0.4], sun=[3, 3, 3], elevation=40)
-        text += BALL.format(name="grey", x=0, scale=1) + BALL.format(name="grey", x=4.4, scale=0.5)
-        seen = {name: numpy.asarray(layer).reshape(24, 32) for name, layer in self.layers("render", text).items()}
+        text += BALL.format(name="grey", x=0, scale=1) + BALL.format(name="grey", x=2.4, scale=0.5)
+        seen = {name: layer.reshape(24, 32) for name, layer in self.layers("render", text).items()}
         self.assertEqual(seen["mesh.id"][12, 16], 1)
         self.assertEqual(set(numpy.unique(seen["mesh.id"])), {0, 1, 2})
         self.assertLess(abs(seen["depth.Z"][12, 16] - 9), 0.03)
@@ -83,14 +83,14 @@ class Pictures(MeshTest):
         size = ["--set", "image.width=64", "--set", "image.height=28"]
         drawn = self.layers("render", text, *size, "--set", "photon_map.photons=200000")
         truth = self.layers("reference", text, *size, "--spp", "1024", name="b.exr")
-        within = numpy.asarray(drawn["mesh.id"]) > 0
-        self.assertGreater(numpy.count_nonzero(within), 250)
+        within = drawn["mesh.id"] > 0
+        self.assertGreater(numpy.count_nonzero(within), 120)
         for channel in "RGB":
-            a, b = numpy.asarray(drawn[channel])[within], numpy.asarray(truth[channel])[within]
-            noise = numpy.asarray(truth["variance." + channel])[within]
+            a, b = drawn[channel][within], truth[channel][within]
+            noise = truth["variance." + channel][within]
             self.assertLess(abs(numpy.sum(a) / numpy.sum(b) - 1), 0.02, channel)
             self.assertLess(numpy.mean(((a - b) ** 2 - noise) / (b**2 + 1e-4)), 1e-2, channel)
-        depth = numpy.asarray(drawn["depth.Z"]) - numpy.asarray(truth["depth.Z"])
+        depth = drawn["depth.Z"] - truth["depth.Z"]
         self.assertLess(float(numpy.median(numpy.abs(depth[within]))), 0.05)
 
     def test_a_mesh_ends_the_clouds_behind_it(self):
@@ -137,8 +137,8 @@ class Refusals(MeshTest):
         self.refused(text + ball, "billboards are not drawn among meshes", "--set", "draw.mode=billboards")
         self.refused(text + ball + "[[lamp]]\npower = [1, 1, 1]\nposition = [0, 200, 0]\n", "lamps do not light meshes")
         (self.folder / "grey.glb").write_bytes(b"glTF and nothing else")
-        for command in ("render", "reference"):
-            self.refused(text + ball, "it is no glTF 2.0", command=command)
+        self.refused(text + ball, "it is no glTF 2.0")
+        self.refused(text + ball, "it is no glTF 2.0", "--spp", "1", command="reference")
 
 
 if __name__ == "__main__":
