@@ -43,24 +43,32 @@ class Painting {
           check_(check) {}
 
     void drawBand(const Tile& band, MeshPixels& to) {
+        // with the pixels around it, so that edges are found as in the whole picture
+        const glm::ivec2 first = glm::max(glm::ivec2(band.x, band.y) - 1, glm::ivec2(0));
+        const glm::ivec2 end = glm::min(glm::ivec2(band.x + band.width, band.y + band.height) + 1,
+                                        glm::ivec2(camera_.width, camera_.height));
+        const Tile around{first.x, first.y, end.x - first.x, end.y - first.y};
+        const auto isOf = [&](const glm::ivec2& pixel) {
+            return pixel.x >= band.x && pixel.y >= band.y && pixel.x < band.x + band.width &&
+                   pixel.y < band.y + band.height;
+        };
         std::vector<glm::ivec2> pixels;
-        for (int y = 0; y < band.height; ++y)
-            for (int x = 0; x < band.width; ++x) pixels.emplace_back(band.x + x, band.y + y);
+        for (int y = 0; y < around.height; ++y)
+            for (int x = 0; x < around.width; ++x) pixels.emplace_back(around.x + x, around.y + y);
         const Rays rays = follow(pixels, few);
         std::vector<glm::ivec2> edges;
         std::vector<bool> isEdge(pixels.size());
         for (std::size_t i = 0; i < pixels.size(); ++i) {
-            isEdge[i] = differ(rays, i, band);
+            isEdge[i] = isOf(pixels[i]) && differ(rays, i, around);
             if (isEdge[i]) edges.push_back(pixels[i]);
         }
         const Rays edgeRays = follow(edges, many);
         std::size_t edge = 0;
         for (std::size_t i = 0; i < pixels.size(); ++i) {
-            const std::size_t place = to.index(pixels[i].x, pixels[i].y);
             if (isEdge[i])
-                addPixel(edgeRays, edge++, many, place, to);
-            else
-                addPixel(rays, i, few, place, to);
+                addPixel(edgeRays, edge++, many, pixels[i], to);
+            else if (isOf(pixels[i]))
+                addPixel(rays, i, few, pixels[i], to);
         }
         shade(to);
     }
@@ -118,7 +126,9 @@ class Painting {
                (y + 1 < static_cast<std::size_t>(band.height) && other(pixel + width));
     }
 
-    void addPixel(const Rays& rays, std::size_t pixel, int across, std::size_t place, MeshPixels& to) {
+    void addPixel(const Rays& rays, std::size_t pixel, int across, const glm::ivec2& at, MeshPixels& to) {
+        const std::size_t place = to.index(at.x, at.y);
+        const auto number = static_cast<std::uint32_t>(at.y * camera_.width + at.x);
         const auto each = static_cast<std::size_t>(across * across);
         std::vector<std::size_t> met;
         double distance = 0.0;
@@ -137,7 +147,7 @@ class Painting {
         }
         for (std::size_t i = 0; i < met.size(); ++i) {
             const glm::dvec3& direction = rays.directions[met[i]];
-            samples_.push_back({scene_.at(rays.hits[met[i]], direction), -direction, static_cast<std::uint32_t>(place),
+            samples_.push_back({scene_.at(rays.hits[met[i]], direction), -direction, number,
                                 static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(met.size()), directions_});
             places_.push_back(place);
         }
