@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes a parser with libFuzzer (Debian packages clang and xz-utils), under AddressSanitizer and
 # UndefinedBehaviorSanitizer: scripts/fuzz.sh TARGET [SECONDS, default 600] [FOLDER of more inputs to begin with].
-# Targets: chunks (uploads of the frame service), exr (pictures for compare and composite), scene (scene files),
+# Targets: chunks (uploads of the frame service), exr (pictures for compare and composite), gltf (meshes), scene (scene files),
 # session (connections of the frame service), vdb (OpenVDB files). The inputs that reach different code become
 # tests/fuzz/corpus/TARGET.tar.xz, which the test TARGET_corpus_test replays.
 set -euo pipefail
@@ -22,6 +22,10 @@ exr)
     # shellcheck disable=SC2207
     libraries=($(pkg-config --libs OpenEXR) -lOpenEXRCore)
     ;;
+gltf)
+    sources=(src/mesh/{accessor,gltf,gltf_file,gltf_material,picture}.cpp)
+    libraries=(-ltinygltf -lpng -ljpeg)
+    ;;
 scene)
     sources=(src/scene/*.cpp
              src/base/{display_transform_none,exposure,file_kind,number_table,progress,tone_curves,tonemap}.cpp)
@@ -37,7 +41,7 @@ vdb)
     headers=(-I/usr/include/Imath) libraries=(-lopenvdb -ltbb -lblosc -lz -lImath) longest=65536
     ;;
 *)
-    echo "usage: scripts/fuzz.sh chunks|exr|scene|session|vdb [SECONDS] [FOLDER]" >&2
+    echo "usage: scripts/fuzz.sh chunks|exr|gltf|scene|session|vdb [SECONDS] [FOLDER]" >&2
     exit 2
     ;;
 esac

@@ -11,6 +11,8 @@ packages=(
     # clouds and pictures; nearest collectors
     libopenvdb-dev libnanovdb-dev libboost-iostreams-dev libtbb-dev libopenexr-dev libpng-dev libjpeg62-turbo-dev
     libopencolorio-dev libflann-dev
+    # meshes; the reference alone traces rays by Embree
+    libtinygltf-dev libembree-dev
     # plots
     libcairo2-dev fonts-dejavu-core
     # Vulkan: headers, loader, a driver that runs on the CPU, validation

@@ -3,6 +3,7 @@
 // Ray march through the density, front to back: cell by cell of the majorant grid, empty cells at once, others in steps
 // that are bounded in length (a voxel) and in optical thickness, begun at an offset that differs from pixel to pixel.
 #include "shared/draw.h"
+#include "shared/mesh.h"
 #include "shared/rng.h"
 #include "lib/density.glsl"
 #include "lib/view.glsl"
@@ -15,6 +16,7 @@ layout(constant_id = 4) const bool MANY = false;     // more than one instance
 layout(constant_id = 5) const bool AIR = false;      // an atmosphere: the sun's light differs by place
 layout(constant_id = 6) const bool GROUND = false;   // rays end at the ground
 layout(constant_id = 7) const bool THICK = false;    // voxels are so thick that the sun's light differs within one
+layout(constant_id = 10) const bool MESH = false;    // rays end at meshes
 layout(constant_id = 3) const bool GREY = false;     // albedo and phase function are the same for all colours
 layout(constant_id = 8) const bool COLOURED = false; // the phase function of a cloud differs between colours
 
@@ -30,6 +32,8 @@ layout(binding = 8, r32f) readonly uniform image3D majorants;  // normalised; ne
 layout(binding = 9, scalar) readonly buffer Blocks { uvec3 blockGroups; uint blockCount; uint blocks[]; };
 layout(binding = 13) uniform sampler2D sunColours;
 layout(binding = 17, scalar) readonly buffer TileDetail { uint tileDetail[]; };
+layout(binding = 18, scalar) readonly buffer MeshPixels { MeshPixel meshPixels[]; };  // of the rectangle
+layout(binding = 19, scalar) readonly buffer MeshEdges { float meshEdges[]; };
 layout(push_constant, scalar) uniform Push { DrawPush push; };
 
 // Held in registers: a load from a buffer costs a loop over the lanes on lavapipe, in every step.
@@ -117,20 +121,22 @@ float distanceToGround(vec3 origin, vec3 direction) {
     return direction.y < 0.0 ? max(above, 0.0) / -direction.y : 3.4e38;
 }
 
-/// The light of one ray: through the one instance, or through those of a list, segment by segment.
-RayLight march(InstanceRange range, vec3 origin, vec3 direction, float offset) {
+/// The light of one ray: through the one instance, or through those of a list, segment by segment. `solid`: metres to a mesh.
+RayLight march(InstanceRange range, vec3 origin, vec3 direction, float offset, float solid) {
     RayLight ray = emptyRay();
     if (!MANY) {
         const Line line = lineIn(onlyInstance, origin, direction);
         vec2 inside = clipToVolume(line, onlyInstance.size);
         if (GROUND) inside.y = min(inside.y, distanceToGround(origin, direction));
+        if (MESH) inside.y = min(inside.y, solid);
         marchThrough(onlyInstance, direction, line, inside, offset, ray);
         return ray;
     }
-    const float limit = GROUND ? distanceToGround(origin, direction) : 3.4e38;
+    float limit = GROUND ? distanceToGround(origin, direction) : 3.4e38;
+    if (MESH) limit = min(limit, solid);
     float begin = 0.0, end = segmentEnd(range, origin, direction, begin);
-    while (end > begin && !isOpaque(ray) && (!GROUND || begin < limit)) {
-        if (GROUND) end = min(end, limit);
+    while (end > begin && !isOpaque(ray) && (!(GROUND || MESH) || begin < limit)) {
+        if (GROUND || MESH) end = min(end, limit);
         // lanes look for the next instance that they meet, and go through it together
         int entry = range.first;
         while (entry < range.last) {
@@ -167,6 +173,11 @@ void main() {
         range = instancesOf(pixel);
         samples = raysAt(pixel);
     }
+    MeshPixel mesh = MeshPixel(vec3(0.0), FAR_DEPTH, -1);
+    if (MESH) {
+        mesh = meshPixels[slot];
+        if (mesh.edge >= 0) samples = MESH_EDGE_RAYS;
+    }
     PixelSum sum = emptyPixel();
     for (int i = 0; i < samples * samples; ++i) {
         const ivec2 fine = pixel * samples + ivec2(i % samples, i / samples);
@@ -174,7 +185,13 @@ void main() {
         viewRay(params.view, fine, samples, origin, direction);
         // interleaved gradient noise (Jimenez 2014): neighbours differ as much as they can
         const float offset = fract(52.9829189 * fract(dot(vec2(fine) + 0.5, vec2(0.06711056, 0.00583715))));
-        addRay(sum, march(range, origin, direction, offset), direction);
+        float solid = mesh.distance;
+        if (MESH && mesh.edge >= 0) solid = meshEdges[samples * samples * mesh.edge + i];
+        const RayLight ray = march(range, origin, direction, offset, solid);
+        if (MESH && solid < FAR_DEPTH)
+            addRayToMesh(sum, ray, solid, mesh.radiance);
+        else
+            addRay(sum, ray, direction);
     }
     const Pixel finished = finishedPixel(sum, samples * samples);
     STORE_PIXEL(pixels, slot, finished);

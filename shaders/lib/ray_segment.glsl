@@ -101,13 +101,27 @@ PixelSum emptyPixel() {
     return PixelSum(Pixel(vec3(0.0), 0.0, 0.0, 0.0, FAR_DEPTH, vec3(0.0), vec2(0.0)), 0.0);
 }
 
+/// Share that is seen of what is behind.
+vec3 seenBehind(RayLight ray) {
+    if (MANY) return exp(-ray.truncated);
+    return exp(-onlyInstance.extinctionScale * ray.depth);
+}
+
+/// Adds a ray that ends at a mesh, whose light belongs to the pixel as that of the cloud does.
+void addRayToMesh(inout PixelSum sum, RayLight ray, float distance, vec3 radiance) {
+    const float transmittance = exp(-ray.depth);
+    const vec3 light = ray.cloud + radiance * seenBehind(ray);
+    sum.pixel.cloud += light;
+    sum.pixel.radiance += light;
+    sum.pixel.alpha += 1.0;
+    sum.pixel.depth += ray.distance + transmittance * distance;
+    sum.pixel.front = min(sum.pixel.front, min(ray.front, distance));
+    sum.weight += ray.weight + transmittance;
+}
+
 void addRay(inout PixelSum sum, RayLight ray, vec3 direction) {
     const float transmittance = exp(-ray.depth);
-    vec3 seen;  // of what is behind
-    if (MANY)
-        seen = exp(-ray.truncated);
-    else
-        seen = exp(-onlyInstance.extinctionScale * ray.depth);
+    const vec3 seen = seenBehind(ray);
     if (SKY_RETURN) ray.cloud = max(ray.cloud + returnedSky(direction, ray.depth), 0.0);
     sum.pixel.cloud += ray.cloud;
     sum.pixel.radiance += ray.cloud + environmentRadiance(params.environment, direction) * seen;

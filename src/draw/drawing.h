@@ -19,6 +19,7 @@ struct DrawFeatures {
     bool coloured = false;     ///< the phase function of a cloud differs between colours
     bool many = false;         ///< more than one instance
     bool ground = false;       ///< rays of a march end at a ground
+    bool mesh = false;         ///< rays of a march end at meshes
     bool sparse = false;       ///< densities are in bricks
     bool air = false;          ///< the sky is an atmosphere
     bool skyReturn = false;    ///< a backward peak sends light of the sky to and fro along rays

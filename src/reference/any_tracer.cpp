@@ -32,7 +32,7 @@ AnyTracer::AnyTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVol
                      int scatterings)
     : tracer_(tracerOf(scene, volumes, majorant, scatterings)) {
     if (scene.moon.shines && scene.sky.model == scene::SkyModel::atmosphere)
-        moon_.emplace(moonlit(scene), volumes, majorant, scatterings);
+        moon_.emplace(moonlit(scene), volumes, majorant, scatterings, false);
 }
 
 PathSample AnyTracer::trace(const Ray& ray, Random& random) const {
@@ -67,6 +67,10 @@ glm::dvec3 AnyTracer::lampSeen(const Ray& ray, std::size_t lamp) const {
 
 glm::dvec3 AnyTracer::skyUnit() const {
     return std::visit([](const auto& tracer) { return glm::dvec3(tracer.environment().unit()); }, tracer_);
+}
+
+const mesh::Placed* AnyTracer::meshes() const {
+    return std::visit([](const auto& tracer) { return tracer.meshes().placed(); }, tracer_);
 }
 
 const SunDisc& AnyTracer::sun() const {

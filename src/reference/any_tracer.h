@@ -24,6 +24,8 @@ class AnyTracer {
     /// Environment::unit.
     glm::dvec3 skyUnit() const;
     const SunDisc& sun() const;
+    /// Null without a mesh.
+    const mesh::Placed* meshes() const;
     bool sunny() const;
     /// Whether paths meet fog or air, which makes them long.
     bool hazy() const;

@@ -70,6 +70,19 @@ void addLamp(Fingerprint& print, const scene::Lamp& lamp) {
     for (const glm::dvec3& v : {lamp.position, lamp.direction, lamp.power}) addVector(print, v);
 }
 
+/// Meshes by their places and their triangles.
+void addMeshes(Fingerprint& print, const mesh::Placed& meshes) {
+    for (const mesh::Instance& instance : meshes.instances) {
+        print.add(instance.model);
+        for (int column = 0; column < 4; ++column) addVector(print, glm::dvec3(instance.toWorld[column]));
+    }
+    for (const mesh::Model& model : meshes.models) {
+        print.add(std::as_bytes(std::span(model.vertices))).add(std::as_bytes(std::span(model.triangles)));
+        print.add(std::as_bytes(std::span(model.materials)));
+        for (const mesh::Texture& texture : model.textures) print.add(std::as_bytes(std::span(texture.texels)));
+    }
+}
+
 /// The map by its name: its content is read once and not kept here.
 void addMap(Fingerprint& print, const scene::Sky& sky) {
     const std::string name = sky.map.string();
@@ -78,7 +91,7 @@ void addMap(Fingerprint& print, const scene::Sky& sky) {
 }
 
 std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes,
-                            const Camera& camera, Majorant majorant, std::uint64_t seed) {
+                            const Camera& camera, const mesh::Placed* meshes, Majorant majorant, std::uint64_t seed) {
     Fingerprint print;
     print.add(seed).add(majorant).add(scene.sun.angularDiameter);
     addVector(print, scene.sun.directionTo);
@@ -100,6 +113,7 @@ std::uint64_t fingerprintOf(const scene::Scene& scene, const std::vector<vdb::Pl
     }
     if (scene.sky.model == scene::SkyModel::map) addMap(print, scene.sky);
     if (!scene.image.background) print.add(scene.image.background);
+    if (meshes != nullptr) addMeshes(print, *meshes);
     return print.value();
 }
 
@@ -115,7 +129,8 @@ Renderer::Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolum
       discCover_(camera_, scene.sun.refraction ? scene::apparentDirection(scene.sun) : tracer_.sun().direction(),
                  tracer_.sunny() ? tracer_.sun().radius() : 0.0),
       seed_(seed),
-      fingerprint_(fingerprintOf(groundedScene(scene, boundsOf(volumes)), volumes, camera_, majorant, seed)) {
+      fingerprint_(
+          fingerprintOf(groundedScene(scene, boundsOf(volumes)), volumes, camera_, tracer_.meshes(), majorant, seed)) {
     if (scatterings != allScatterings) fingerprint_ = Fingerprint().add(fingerprint_).add(scatterings).value();
     scene::requireEyeOutsideLamps(scene, camera_.position);
     for (const scene::Lamp& lamp : scene.lamps) {

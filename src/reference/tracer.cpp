@@ -48,12 +48,11 @@ bool survives(Light& throughput, double chance, Random& random) {
 
 template <typename Light>
 BasicPathTracer<Light>::BasicPathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes,
-                                        Majorant majorant, int scatterings)
+                                        Majorant majorant, int scatterings, bool meshesGlow)
     : environment_(scene),
       clouds_(scene.clouds, volumes, majorant),
       haze_(hazeOf(scene, environment_)),
-      surfaces_(withLamps(surfacesOf(scene), scene.lamps)),
-      things_(surfacesOf(scene)),
+      solids_(scene, meshesGlow),
       lamps_(withLamps(surfacesOf(scene), scene.lamps), scene.lamps),
       scatterings_(scatterings),
       inscattering_(scene.fog.inscattering) {
@@ -66,9 +65,9 @@ BasicPathTracer<Light>::BasicPathTracer(const scene::Scene& scene, const std::ve
 template <typename Light>
 auto BasicPathTracer<Light>::nextEvent(const Vertex& vertex, const Light& throughput, Random& random) const -> Event {
     Event event;
-    if (!surfaces_.empty()) {
-        const auto hit = surfaces_.nearest(vertex.ray, vertex.surface());
-        if (hit) event = {Place::surface, hit->metres, hit->surface};
+    if (!solids_.empty()) {
+        const auto hit = solids_.nearest(vertex.ray, vertex.solid);
+        if (hit) event = {Place::solid, hit->metres, Surfaces::none, *hit};
     }
     // what costs more comes later, when the way is shorter
     if constexpr (std::is_same_v<Haze, Fog>) {
@@ -86,13 +85,13 @@ void BasicPathTracer<Light>::meetHaze(Event& event, const Vertex& vertex, const 
                                       Random& random) const {
     if (haze_.empty()) return;
     const auto collision = haze_.collide(vertex.ray, event.metres, throughput, random);
-    if (collision) event = {Place::haze, collision->metres, collision->medium};
+    if (collision) event = {Place::haze, collision->metres, collision->medium, {}};
 }
 
 template <typename Light>
 void BasicPathTracer<Light>::meetClouds(Event& event, const Vertex& vertex, Random& random) const {
     const auto collision = clouds_.collide(vertex.voxels, event.metres, random);
-    if (collision) event = {Place::cloud, collision->metres, collision->cloud};
+    if (collision) event = {Place::cloud, collision->metres, collision->cloud, {}};
 }
 
 template <typename Light>
@@ -102,9 +101,8 @@ void BasicPathTracer<Light>::arrive(Vertex& vertex, const Event& event) const {
     vertex.arrived = vertex.ray.direction;
     vertex.ray.origin += event.metres * vertex.ray.direction;
     clouds_.advance(vertex.voxels, event.metres);
-    if (event.place == Place::surface) {
-        vertex.normal = surfaces_.normalAgainst(vertex.ray.direction, vertex.ray.origin, event.index);
-    }
+    vertex.solid =
+        event.place == Place::solid ? solids_.at(vertex.ray.direction, vertex.ray.origin, event.solid) : SolidPoint{};
 }
 
 /// Follows the path through the haze to the event: adds emission and updates the throughput (after a collision with
@@ -123,12 +121,12 @@ double BasicPathTracer<Light>::crossHaze(const Vertex& vertex, const Event& even
     return share;
 }
 
-/// Updates the throughput after a collision with cloud or surface. Returns the remaining share of the brightest
+/// Updates the throughput after a collision with cloud or solid. Returns the remaining share of the brightest
 /// channel.
 template <typename Light>
 double BasicPathTracer<Light>::scatter(const Vertex& vertex, Light& throughput) const {
-    const bool atSurface = vertex.place == Place::surface;
-    const Light albedo = environment_.albedo(atSurface ? surfaces_[vertex.index].albedo : clouds_.albedo(vertex.index));
+    const bool solid = vertex.place == Place::solid;
+    const Light albedo = environment_.albedo(solid ? solids_.albedo(vertex.solid) : clouds_.albedo(vertex.index));
     throughput *= albedo;
     return glm::compMax(albedo);
 }
@@ -139,29 +137,30 @@ const PhaseFunction& BasicPathTracer<Light>::phaseAt(const Vertex& vertex) const
     return vertex.place == Place::haze ? haze_.phase(vertex.index) : clouds_.phase(vertex.index);
 }
 
-/// Draws the next direction of the path from the phase function, or from the cosine of a diffuse surface.
+/// Draws the next direction of the path from the phase function, or as a solid reflects.
 template <typename Light>
 glm::dvec3 BasicPathTracer<Light>::turn(const Vertex& vertex, Random& random) const {
-    if (vertex.place == Place::surface) return turned(vertex.normal, 1.0 - std::sqrt(random.uniform()), random);
+    if (vertex.place == Place::solid) return solids_.turn(vertex.solid, vertex.arrived, random);
     return turned(vertex.arrived, phaseAt(vertex).sample(random), random);
 }
 
-/// Share of light from `toLight` that goes on along the path, 1/sr: the phase function, or the cosine over π. It is
-/// also the density with which the function above draws that direction.
+/// Share of light from `toLight` that goes on along the path, 1/sr: the phase function, or that of a solid. It
+/// is also the density with which the function above draws that direction.
 template <typename Light>
 double BasicPathTracer<Light>::response(const Vertex& vertex, const glm::dvec3& toLight) const {
-    if (vertex.place == Place::surface) {
-        return std::max(0.0, glm::dot(vertex.normal, toLight)) * glm::one_over_pi<double>();
-    }
+    if (vertex.place == Place::solid) return solids_.density(vertex.solid, vertex.arrived, toLight);
     return phaseAt(vertex).evaluate(oneMinusCosBetween(vertex.arrived, toLight));
 }
 
-/// What the phase function of droplets makes of the colours of light from a direction. Later scattering events by the
-/// mean of the colours: many of them would multiply to weights without bounds, and their colours have blurred by then.
+/// What the phase function of droplets, or the facets of a mesh, make of the colours of light from a direction. Later
+/// scattering events by the mean of the colours: many of them would multiply to weights without bounds, and their
+/// colours have blurred by then.
 template <typename Light>
 Light BasicPathTracer<Light>::hue(const Path& path, const glm::dvec3& toLight) const {
     constexpr int most = 6;
     const Vertex& vertex = path.vertex;
+    if (vertex.place == Place::solid && vertex.solid.mesh)
+        return environment_.albedo(solids_.shade(vertex.solid, vertex.arrived, toLight));
     if (vertex.place != Place::cloud || path.collisions > most) return Light(1.0);
     return environment_.albedo(clouds_.phase(vertex.index).hue(oneMinusCosBetween(vertex.arrived, toLight)));
 }
@@ -178,7 +177,12 @@ double BasicPathTracer<Light>::density(const Vertex& vertex, const glm::dvec3& d
 template <typename Light>
 bool BasicPathTracer<Light>::head(Path& path, const glm::dvec3& direction, Random& random) const {
     Vertex& vertex = path.vertex;
-    path.throughput *= hue(path, direction);
+    const Light colours = hue(path, direction);
+    path.throughput *= colours;
+    // facets absorb by their colours: paths that go to and fro between them have to end
+    if (vertex.solid.mesh &&
+        !(glm::compMax(path.throughput) > 0.0 && survives(path.throughput, glm::compMax(colours), random)))
+        return false;
     if (aureole_) {
         path.throughput *= response(vertex, direction) / density(vertex, direction);
         if (!survives(path.throughput, glm::compMax(path.throughput) * aureole_->importance(direction), random))
@@ -199,10 +203,11 @@ void BasicPathTracer<Light>::branch(const Path& path, std::vector<Path>& branche
 /// Emission of a surface that a path from `vertex` meets by chance, without the share that `lampLight` covers.
 template <typename Light>
 Light BasicPathTracer<Light>::emissionAt(const Vertex& vertex, const Event& event) const {
-    const Light emission = environment_.emission(lamps_.emission(event.index, -vertex.ray.direction));
+    if (event.solid.mesh) return environment_.emission(solids_.meshEmission(vertex.ray, event.solid));
+    const Light emission = environment_.emission(lamps_.emission(event.solid.surface, -vertex.ray.direction));
     if (lamps_.empty() || vertex.place == Place::eye) return emission;
     const double chance = density(vertex, vertex.ray.direction);
-    const double aimed = lamps_.density(vertex.ray.origin, event.index);
+    const double aimed = lamps_.density(vertex.ray.origin, event.solid.surface);
     return chance > 0.0 ? emission * (chance / (chance + aimed)) : Light(0.0);
 }
 
@@ -216,7 +221,7 @@ Light BasicPathTracer<Light>::lampLight(const Path& path, Random& random) const 
     const double chance = response(vertex, lamp->direction);
     if (!(chance > 0.0)) return Light(0.0);
     const Ray shadow{point, lamp->direction};
-    const std::optional<SurfaceHit> hit = surfaces_.nearest(shadow, vertex.surface());
+    const std::optional<SolidHit> hit = solids_.nearest(shadow, vertex.solid);
     if (!hit || hit->surface != lamp->surface) return Light(0.0);
     double weight = chance / (density(vertex, lamp->direction) + lamp->density);
     weight = clouds_.passed(vertex.voxels, lamp->direction, random, weight, 0.0, hit->metres);
@@ -243,7 +248,7 @@ Light BasicPathTracer<Light>::skyLight(const Path& path, Random& random) const {
     const SkyMapSample sky = environment_.sample(random);
     const double chance = response(vertex, sky.direction);
     const Ray shadow{vertex.ray.origin, sky.direction};
-    if (!(chance > 0.0) || surfaces_.block(shadow, vertex.surface())) return Light(0.0);
+    if (!(chance > 0.0) || solids_.block(shadow, vertex.solid)) return Light(0.0);
     double weight = chance / (density(vertex, sky.direction) + sky.density);
     weight = clouds_.passed(vertex.voxels, sky.direction, random, weight, 0.0);
     const Light light = weight * environment_.radiance(sky.direction) * hue(path, sky.direction);
@@ -275,7 +280,7 @@ Light BasicPathTracer<Light>::sunTransmission(const Path& path, double strength,
         weight = threshold;
     }
     const Ray shadow{vertex.ray.origin, toSun};
-    if (surfaces_.block(shadow, vertex.surface())) return Light(0.0);
+    if (solids_.block(shadow, vertex.solid)) return Light(0.0);
     weight = clouds_.passed(vertex.voxels, toSun, random, weight, threshold);
     if (weight == 0.0) return Light(0.0);
     const Light light = weight * hue(path, toSun);
@@ -299,8 +304,8 @@ bool BasicPathTracer<Light>::step(Path& path, Found& found, std::vector<Path>& b
         return false;
     }
     if (vertex.place == Place::eye) found.air = event.place == Place::haze && !haze_.isFog(event.index);
-    const bool lampFirst = vertex.place == Place::eye && event.index >= things_.size();
-    if (event.place == Place::surface)
+    const bool lampFirst = vertex.place == Place::eye && !event.solid.mesh && event.solid.surface >= solids_.things();
+    if (event.place == Place::solid)
         (lampFirst ? found.lamps : found.radiance) += throughput * emissionAt(vertex, event);
     if (scattered++ == scatterings_) return false;
     arrive(vertex, event);
@@ -345,29 +350,6 @@ PathSample BasicPathTracer<Light>::trace(const Ray& ray, Random& random) const {
 }
 
 template <typename Light>
-RayIntegrals BasicPathTracer<Light>::integrate(const Ray& ray) const {
-    RayIntegrals result;
-    const auto hit = things_.nearest(ray, Surfaces::none);
-    const LineIntegrals line = clouds_.integrate(ray, hit ? hit->metres : endless);
-    result.clear = line.transmittance;
-    result.distance = line.distance;
-    if (hit) {
-        result.distance += result.clear * hit->metres;
-        result.clear = 0.0;
-    }
-    result.transmittance = glm::dvec3(result.clear);
-    if (haze_.hasFog()) result.transmittance *= haze_.fogTransmittance(ray, endless);
-    return result;
-}
-
-template <typename Light>
-std::optional<double> BasicPathTracer<Light>::front(const Ray& ray) const {
-    const std::optional<double> metres = clouds_.front(ray);
-    const auto hit = things_.nearest(ray, Surfaces::none);
-    return hit && !(metres && *metres < hit->metres) ? hit->metres : metres;
-}
-
-template <typename Light>
 glm::dvec3 BasicPathTracer<Light>::discUnit() const {
     if constexpr (std::is_same_v<Haze, Fog>) return environment_.meanDiscRadiance();
     return glm::dvec3(1.0);
@@ -386,8 +368,8 @@ glm::dvec3 BasicPathTracer<Light>::discSeen(const Ray& ray) const {
 
 template <typename Light>
 glm::dvec3 BasicPathTracer<Light>::lampSeen(const Ray& ray, std::size_t lamp) const {
-    const std::optional<SurfaceHit> hit = surfaces_.nearest(ray, Surfaces::none);
-    if (!hit || hit->surface != things_.size() + lamp) return glm::dvec3(0.0);
+    const std::optional<SolidHit> hit = solids_.nearest(ray, {});
+    if (!hit || hit->surface != solids_.things() + lamp) return glm::dvec3(0.0);
     Light light = environment_.emission(lamps_.emission(hit->surface, -ray.direction));
     if (!haze_.empty()) light *= haze_.transmittance(ray, hit->metres);
     return clouds_.integrate(ray, hit->metres).transmittance * environment_.rgb(light);

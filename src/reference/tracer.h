@@ -15,7 +15,8 @@
 #include "reference/lamps.h"
 #include "reference/phase.h"
 #include "reference/random.h"
-#include "reference/surfaces.h"
+#include "reference/sight.h"
+#include "reference/solids.h"
 #include "scene/scene.h"
 
 namespace lumulus::reference {
@@ -30,13 +31,6 @@ struct PathSample {
     glm::dvec3 passed{0.0};
     glm::dvec3 lamps{0.0};  ///< of lamps of the scene that the path met first, in place of `radiance`
     bool lost = false;      ///< ended by the limit of collisions
-};
-
-/// Integrals along a ray, without noise.
-struct RayIntegrals {
-    glm::dvec3 transmittance{1.0};  ///< of everything: clouds, fog and surfaces
-    double clear = 1.0;             ///< transmittance of clouds and surfaces alone
-    double distance = 0.0;          ///< to clouds and surfaces: over 1 − clear, their mean distance. Metres
 };
 
 /// What light is made of: three channels of a sky without air, or four wavelengths in the air of an atmosphere. There
@@ -56,12 +50,12 @@ struct WorldOf<Four> {
     using Haze = Air;
 };
 
-/// The unbiased path tracer of clouds, haze (analytic fog, and the air of an atmosphere) and opaque surfaces under the
-/// sun and the sky: delta tracking in the clouds and exact free paths in the haze, whichever is nearer, next-event
-/// estimation to the sun's disc at each collision (ratio tracking through the clouds, the transmittance of the haze)
-/// and to spheres that give off light, both weighted against meeting them by chance (Veach 1997, the balance
-/// heuristic), the sky where a path escapes, the emission of surfaces and fog where a path meets them, any number of
-/// scatterings. Immutable; any number of threads may trace.
+/// The unbiased path tracer of clouds, haze (analytic fog, and the air of an atmosphere) and opaque solids (surfaces,
+/// meshes) under the sun and the sky: delta tracking in the clouds and exact free paths in the haze, whichever is
+/// nearer, next-event estimation to the sun's disc at each collision (ratio tracking through the clouds, the
+/// transmittance of the haze) and to spheres that give off light, both weighted against meeting them by chance (Veach
+/// 1997, the balance heuristic), the sky where a path escapes, the emission of surfaces and fog where a path meets
+/// them, any number of scatterings. Immutable; any number of threads may trace.
 template <typename Light>
 class BasicPathTracer {
   public:
@@ -71,16 +65,15 @@ class BasicPathTracer {
     /// `volumes`: one for each cloud of the scene, read here only. Errors: InputError for a phase function that is
     /// none, and for endless fog in the light of sun and sky.
     /// `scatterings`: what light has been scattered or reflected more often does not count.
+    /// `meshesGlow`: whether meshes give off light of their own.
     BasicPathTracer(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, Majorant majorant,
-                    int scatterings = allScatterings);
+                    int scatterings = allScatterings, bool meshesGlow = true);
 
     PathSample trace(const Ray& ray, Random& random) const;
 
-    /// The air of an atmosphere is part of the sky and does not count here.
-    RayIntegrals integrate(const Ray& ray) const;
-
-    /// Metres to the nearest point of cloud or surface on the ray; absent if there is none.
-    std::optional<double> front(const Ray& ray) const;
+    /// As integrateRay() and frontOf().
+    RayIntegrals integrate(const Ray& ray) const { return integrateRay(clouds_, solids_, haze_, ray); }
+    std::optional<double> front(const Ray& ray) const { return frontOf(clouds_, solids_, ray); }
 
     /// What a ray sees of the sun's disc, over `discUnit`.
     glm::dvec3 discSeen(const Ray& ray) const;
@@ -90,21 +83,20 @@ class BasicPathTracer {
     glm::dvec3 discUnit() const;
 
     const Sky& environment() const { return environment_; }
+    const Meshes& meshes() const { return solids_.meshes(); }
     bool hazy() const { return !haze_.empty(); }
 
   private:
-    enum class Place { eye, cloud, haze, surface, sky };
+    enum class Place { eye, cloud, haze, solid, sky };
 
     /// A point from which a path goes on.
     struct Vertex {
         Place place = Place::eye;
-        std::size_t index = Surfaces::none;  ///< of the surface, the cloud, or the medium of the haze
+        std::size_t index = Surfaces::none;  ///< of the cloud, or the medium of the haze
         glm::dvec3 arrived{0.0};             ///< direction of the path up to here
         Ray ray;                             ///< from here on, in the world
         CloudRays voxels;                    ///< the same for each cloud
-        glm::dvec3 normal{0.0};              ///< of the surface, on the side that is lit
-
-        std::size_t surface() const { return place == Place::surface ? index : Surfaces::none; }
+        SolidPoint solid;                    ///< what it is of a surface or mesh
     };
 
     /// An unfinished path.
@@ -127,7 +119,8 @@ class BasicPathTracer {
     struct Event {
         Place place = Place::sky;
         double metres = std::numeric_limits<double>::infinity();
-        std::size_t index = Surfaces::none;
+        std::size_t index = Surfaces::none;  ///< of the cloud, or the medium of the haze
+        SolidHit solid;
     };
 
     Event nextEvent(const Vertex& vertex, const Light& throughput, Random& random) const;
@@ -160,8 +153,7 @@ class BasicPathTracer {
     Clouds clouds_;
     std::optional<Aureole> aureole_;
     Haze haze_;
-    Surfaces surfaces_;  ///< lamps included
-    Surfaces things_;    ///< without lamps, which layers do not know
+    Solids solids_;
     Lamps lamps_;
     int scatterings_;
     bool inscattering_;  ///< the fog scatters light straight from sun and sky

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "render/mesh_view.h"
 #include "scene/fog_bounds.h"
 
 namespace lumulus {
@@ -25,6 +26,7 @@ const scene::Scene& drawable(const scene::Scene& scene) {
         throw InputError("surfaces are for the reference alone", scene.source + ", surface",
                          "use lumulus reference, or leave them out: --set surface=[]");
     }
+    requireDrawableMeshes(scene, false);
     requireDrawableLamps(scene);
     // without clouds the scene may be for pictures of other renderers, whose fog may be endless
     if (!scene.clouds.empty()) scene::requireBoundedFog(scene);

@@ -20,11 +20,11 @@ constexpr double mostDrawn = 0.75;
 
 }  // namespace
 
-Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& draw)
+Painter::Painter(gpu::Context& context, const World& world, const scene::Draw& draw, bool meshes)
     : tolerance_(draw.tolerance),
       visible_(world.visible()),
       phaseTables_(visible_.size()),
-      features_(featuresOf(world)),
+      features_(featuresOf(world, meshes)),
       phase_(makePhaseTables(context, world, features_, phaseTables_)),
       none_(context, "none", glm::ivec3(1), VK_FORMAT_R32G32B32A32_SFLOAT),
       noColours_(context, "no colours", glm::ivec2(1), VK_FORMAT_R32G32B32A32_SFLOAT),
@@ -57,7 +57,7 @@ std::vector<draw::Fineness> Painter::fineness(const World& world, const Camera& 
 }
 
 int Painter::samplingSpacing(const World& world, const Camera& camera) const {
-    if (tolerance_ <= 0.0) return 1;
+    if (tolerance_ <= 0.0 || features_.mesh) return 1;
     const std::vector<draw::Fineness> each = fineness(world, camera, 1);
     if (!features_.many) return each.front().spacing;
     return std::ranges::max(each, {}, &draw::Fineness::spacing).spacing > 1 ? draw::widestSpacing : 1;
@@ -188,11 +188,11 @@ void Painter::prepare(GpuWork& work, ViewState::State& view) const {
 }
 
 void Painter::recordPixels(gpu::Commands& commands, const draw::DrawInputs& inputs, const ViewState::State& view,
-                           const shared::DrawPush& push) const {
+                           const draw::MeshBuffers* meshes, const shared::DrawPush& push) const {
     if (billboards_)
         billboards_->record(commands, inputs, *view.billboards, push);
     else
-        march_->record(commands, inputs, view.tiles ? *view.tiles : noTiles_, push);
+        march_->record(commands, inputs, view.tiles ? *view.tiles : noTiles_, meshes, push);
 }
 
 /// The points of sparse sampling that are not drawn yet, what can be interpolated between them, and the rest.
@@ -205,7 +205,7 @@ void Painter::recordBlocks(gpu::Commands& commands, const draw::DrawInputs& inpu
     const draw::Band needed = draw::samplingRows(sampling, view.shown, band);
     const int first = std::max(needed.first, view.sampledRowsDrawn), end = needed.first + needed.rows;
     if (end > first) {
-        recordPixels(commands, into(interpolation.points(), inputs.squares), view,
+        recordPixels(commands, into(interpolation.points(), inputs.squares), view, nullptr,
                      {shared::DRAW_SPARSE, sampling.first + glm::ivec2(0, first), {sampling.size.x, end - first}});
         commands.barrier("sample points");
         view.sampledRowsDrawn = end;
@@ -214,13 +214,13 @@ void Painter::recordBlocks(gpu::Commands& commands, const draw::DrawInputs& inpu
     interpolation.record(commands, inputs, tiles, pixels);
     commands.barrier("blocks");
     if (draw::hasRefinement(view.spacing)) {
-        recordPixels(commands, into(interpolation.refined(), interpolation.blocks()), view,
+        recordPixels(commands, into(interpolation.refined(), interpolation.blocks()), view, nullptr,
                      interpolation.refinedPoints(pixels));
         commands.barrier("refined points");
         interpolation.recordRefined(commands, inputs, tiles, pixels);
         commands.barrier("cells");
     }
-    recordPixels(commands, into(inputs.pixels, interpolation.lastList()), view, interpolation.squares(pixels));
+    recordPixels(commands, into(inputs.pixels, interpolation.lastList()), view, nullptr, interpolation.squares(pixels));
 }
 
 void Painter::paintBand(GpuWork& work, const draw::DrawInputs& inputs, ViewState::State& view,
@@ -229,11 +229,15 @@ void Painter::paintBand(GpuWork& work, const draw::DrawInputs& inputs, ViewState
     const Tile pixels{shown.x, shown.y + band.first, shown.width, band.rows};
     const Tile place{pixels.x - view.tile.x, pixels.y - view.tile.y, pixels.width, pixels.height};
     if (sampling.spacing > 1) view.interpolations.at(view.spacing).clearLists();
+    std::optional<MeshBand> meshes;
+    if (features_.mesh) meshes.emplace(work.context, view, pixels);
+    const std::optional<draw::MeshBuffers> bound =
+        meshes ? std::optional(draw::MeshBuffers{meshes->pixels, meshes->edges}) : std::nullopt;
     work.run([&](gpu::Commands& commands) {
         if (sampling.spacing > 1)
             recordBlocks(commands, inputs, view, sampling, band, pixels);
         else
-            recordPixels(commands, inputs, view,
+            recordPixels(commands, inputs, view, bound ? &*bound : nullptr,
                          {shared::DRAW_PIXELS, {pixels.x, pixels.y}, {pixels.width, pixels.height}});
         if (image != nullptr) return;
         commands.barrier("pixels");

@@ -23,7 +23,8 @@ int raysOf(const World& world, std::size_t instance, const Camera& camera);
 class Painter {
   public:
     /// Errors: InputError where the device cannot hold the volumes of all clouds in one image.
-    Painter(gpu::Context& context, const World& world, const scene::Draw& draw);
+    /// `meshes`: whether the scene has some.
+    Painter(gpu::Context& context, const World& world, const scene::Draw& draw, bool meshes);
 
     /// Spacing in pixels of the points of sparse sampling for a view, chosen so that the farthest voxels still cover
     /// it; of several clouds the widest, as tiles with smaller voxels are drawn more finely (findShown()).
@@ -53,7 +54,7 @@ class Painter {
     shared::DrawParams drawParams(const World& world, const ViewState::State& view) const;
     void fillAtlas(GpuWork& work, ViewState::State& view) const;
     void recordPixels(gpu::Commands& commands, const draw::DrawInputs& inputs, const ViewState::State& view,
-                      const shared::DrawPush& push) const;
+                      const draw::MeshBuffers* meshes, const shared::DrawPush& push) const;
     void recordBlocks(gpu::Commands& commands, const draw::DrawInputs& inputs, ViewState::State& view,
                       const shared::SamplingGrid& sampling, const draw::Band& band, const Tile& pixels) const;
     void paintBand(GpuWork& work, const draw::DrawInputs& inputs, ViewState::State& view,

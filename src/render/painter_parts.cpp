@@ -17,8 +17,9 @@ bool hasThickVoxels(const cloud::Instance& instance, int bands) {
 
 }  // namespace
 
-draw::DrawFeatures featuresOf(const World& world) {
+draw::DrawFeatures featuresOf(const World& world, bool meshes) {
     draw::DrawFeatures features;
+    features.mesh = meshes;
     features.ground = world.lights.ground.has_value();
     const std::vector<const cloud::Instance*> instances = instancesOf(world);
     features.forwardCut =
@@ -111,6 +112,25 @@ gpu::Image skyReturnImage(gpu::Context& context, const photon::SkyReturn& sky) {
     gpu::upload(context, image, sky.texels);
     return image;
 }
+
+namespace {
+
+surface::MeshPixels meshesOf(const ViewState::State& view, const Tile& band) {
+    if (view.meshes) return view.meshes->part(band);
+    surface::MeshPixels none;
+    none.pixels.assign(static_cast<std::size_t>(band.width) * static_cast<std::size_t>(band.height),
+                       {glm::vec3(0.0F), shared::FAR_DEPTH, -1});
+    return none;
+}
+
+}  // namespace
+
+MeshBand::MeshBand(gpu::Context& context, const ViewState::State& view, const Tile& band)
+    : MeshBand(context, meshesOf(view, band)) {}
+
+MeshBand::MeshBand(gpu::Context& context, const surface::MeshPixels& meshes)
+    : pixels(gpu::filledBuffer(context, "mesh pixels", meshes.pixels)),
+      edges(gpu::filledBuffer(context, "mesh edges", meshes.edges)) {}
 
 Tile unite(const Tile& a, const Tile& b) {
     if (a.width <= 0 || a.height <= 0) return b;

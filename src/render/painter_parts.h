@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "draw/drawing.h"
+#include "render/view_state.h"
 #include "render/world.h"
 #include "view/camera.h"
 #include "view/view.h"
@@ -11,7 +12,8 @@
 /// What a painter's passes need to know of the visible instances of a world, in their order.
 namespace lumulus {
 
-draw::DrawFeatures featuresOf(const World& world);
+/// `meshes`: whether the scene has some.
+draw::DrawFeatures featuresOf(const World& world, bool meshes);
 std::vector<const cloud::Instance*> instancesOf(const World& world);
 
 /// Phase functions of all visible instances. Equal ones share tables: `numbers` becomes the number of each one's.
@@ -29,6 +31,16 @@ glm::ivec2 sunColourPlace(std::size_t place);
 gpu::Image sunColourImage(gpu::Context& context, const World& world);
 
 gpu::Image skyReturnImage(gpu::Context& context, const photon::SkyReturn& sky);
+
+/// What the pixels of a band show of the meshes of a view, as the march reads it; nothing where the view has none.
+struct MeshBand {
+    MeshBand(gpu::Context& context, const ViewState::State& view, const Tile& band);
+
+    gpu::Buffer pixels, edges;
+
+  private:
+    MeshBand(gpu::Context& context, const surface::MeshPixels& meshes);
+};
 
 /// The smallest tile that holds both. An empty one adds nothing.
 Tile unite(const Tile& a, const Tile& b);

@@ -7,6 +7,7 @@
 #include "fog/screen/depth.h"
 #include "frame/background.h"
 #include "frame/sun_disc.h"
+#include "render/painter_parts.h"
 #include "render/view_light.h"
 #include "render/world_fog.h"
 #include "scene/ephemeris.h"
@@ -65,6 +66,10 @@ void PictureOrder::drawAtmosphere(ViewState::State& state) {
         const double away = glm::length(world.instances[i].middle() - state.camera.position);
         nearest = std::min(nearest, std::max(0.0, away - 0.5 * world.instances[i].diagonal()));
         farthest = std::max(farthest, away + 0.5 * world.instances[i].diagonal());
+    }
+    if (state.meshes && state.meshes->shown.height > 0) {
+        nearest = std::min(nearest, static_cast<double>(state.meshes->nearest));
+        farthest = std::max(farthest, static_cast<double>(state.meshes->farthest));
     }
     if (state.shown.height <= 0) nearest = farthest;
     if (!state.sky) state.sky.emplace(work.context, world.lights.environment.moon(), fogged);
@@ -228,13 +233,19 @@ LayeredImage PictureOrder::finished(ViewState::State& state, const Tile& wanted)
 LayeredImage PictureOrder::picture(ViewState::State& state, const View& view) {
     const Tile wanted = state.tile;
     if (fog != nullptr) state.tile = {0, 0, view.image.width, view.image.height};  // its filter sees beyond the tile
+    state.meshes.reset();
+    if (meshes != nullptr) state.meshes = meshes->draw(work, world, state.camera, state.tile, state.coarse, check);
     state.shown = painter != nullptr ? painter->shownPart(world, state) : Tile{state.tile.x, state.tile.y, 0, 0};
+    if (state.meshes) state.shown = unite(state.shown, state.meshes->shown);
     LayeredImage image;
     if (inFrame())
         drawBackground(state);
     else
         image = frame::emptyFrame(state.tile, glm::dvec3(world.lights.environment.params().radiance));
-    if (state.shown.height > 0) {
+    if (state.shown.height > 0 && painter == nullptr) {
+        paintMeshes(work, *state.meshes, state.tile, glm::vec3(world.lights.environment.params().radiance),
+                    inFrame() ? &*state.frame : nullptr, inFrame() ? nullptr : &image);
+    } else if (state.shown.height > 0) {
         drawLight(state, photon::Part::all);
         painter->paint(work, world, state, draw::allBands(state.shown), inFrame() ? nullptr : &image, check, report);
     }
@@ -248,6 +259,7 @@ LayeredImage PictureOrder::picture(ViewState::State& state, const View& view) {
         image = finishInFog(state, wanted);
     else
         finish(image, state);
+    if (state.meshes) surface::addMeshIds(image, *state.meshes, wanted);
     if (!view.image.background) frame::leaveOutBackground(image);
     return image;
 }

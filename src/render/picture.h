@@ -3,6 +3,7 @@
 #include "fog/lit/lit_fog.h"
 #include "fog/screen/fog.h"
 #include "render/ground_view.h"
+#include "render/mesh_view.h"
 #include "render/painter.h"
 #include "render/renderer.h"
 
@@ -16,6 +17,7 @@ struct PictureOrder {
     fog::Fog* fog;           ///< null: there is no fog
     fog::LitFog* litFog;     ///< null: there is no fog in the light of sun and sky
     GroundView* ground;      ///< null: there is no ground
+    MeshView* meshes;        ///< null: there are no meshes, or the picture leaves them out
     int bands;               ///< of the photon map
     int shadowReduction;     ///< that shadow volumes may have
     const Check& check;

@@ -92,7 +92,9 @@ void Renderer::State::makePainters(const scene::Scene& scene) {
                        world->lights.ground || world->airOverFog, world->airOverFog != nullptr);
     if (world->shadedGround() != nullptr) ground.emplace(keepRing);
     for (const auto& asset : world->assets) statistics.collectors += asset->collectors.size();
-    if (!world->visible().empty()) painter.emplace(context, *world, scene.draw);
+    requireDrawableMeshes(scene, keepRing);
+    if (!scene.meshes.empty()) meshes.emplace(context, scene, check);
+    if (!world->visible().empty()) painter.emplace(context, *world, scene.draw, meshes.has_value());
 }
 
 Renderer::~Renderer() = default;
@@ -203,6 +205,15 @@ void Renderer::State::addLamps(LayeredImage& picture, const Camera& seen, const 
     report("lamps", 1, 1);
 }
 
+void Renderer::State::lightMeshes(PictureOrder& order) {
+    report("light on meshes", 0, 1);
+    const View around = meshes->surroundings(*world);
+    ViewState from;
+    show(from.state(), around);
+    meshes->setLight(context, *world, order.picture(from.state(), around), check);
+    report("light on meshes", 1, 1);
+}
+
 LayeredImage Renderer::draw() {
     return draw(sceneView());
 }
@@ -227,10 +238,15 @@ LayeredImage Renderer::draw(const View& view, ViewState& viewState) {
                        s.fog ? &*s.fog : nullptr,
                        s.litFog ? &*s.litFog : nullptr,
                        s.ground ? &*s.ground : nullptr,
+                       nullptr,
                        s.world->photonMap.bands,
                        s.sunAllowed,
                        s.check,
                        s.report};
+    if (s.meshes) {
+        s.lightMeshes(order);
+        order.meshes = &*s.meshes;
+    }
     LayeredImage image = order.picture(viewState.state(), view);
     if (!s.lamps.empty() && view.image.background) s.addLamps(image, viewState.state().camera, view);
     s.statistics.passes.clear();
@@ -246,7 +262,8 @@ Preview Renderer::preview() {
     State& s = *state_;
     ViewState viewState;
     s.show(viewState.state(), sceneView());
-    PictureOrder order{s.work,       *s.world, &*s.painter, nullptr, nullptr, nullptr, s.world->photonMap.bands,
+    PictureOrder order{s.work,       *s.world, &*s.painter, nullptr,
+                       nullptr,      nullptr,  nullptr,     s.world->photonMap.bands,
                        s.sunAllowed, s.check,  noReport};
     Preview preview = order.preview(viewState.state());
     if (!s.image.background)

@@ -11,6 +11,7 @@
 #include "fog/screen/fog.h"
 #include "render/gpu_work.h"
 #include "render/ground_view.h"
+#include "render/mesh_view.h"
 #include "render/painter.h"
 #include "render/renderer.h"
 #include "render/world.h"
@@ -42,6 +43,7 @@ struct Renderer::State {
     std::optional<fog::Fog> fog;
     std::optional<fog::LitFog> litFog;
     std::optional<GroundView> ground;
+    std::optional<MeshView> meshes;
     std::vector<scene::Lamp> lamps;           ///< that shine
     std::map<std::size_t, glm::dvec3> moved;  ///< ways of the clouds that do not lie where the scene has them [m]
     int sunAllowed = 1;                       ///< reduction of shadow volumes
@@ -57,6 +59,8 @@ struct Renderer::State {
     void show(ViewState::State& state, const View& view) const;
     /// Adds the light of lamps to a picture of a view.
     void addLamps(LayeredImage& picture, const Camera& seen, const View& view);
+    /// Draws what surrounds the meshes, by the order of a picture without them.
+    void lightMeshes(struct PictureOrder& order);
     int raysAcross(const Camera& camera, int most) const;
     void lightChanged();
 };

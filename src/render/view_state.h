@@ -14,6 +14,7 @@
 #include "frame/sky_pass.h"
 #include "light/light_field.h"
 #include "render/renderer.h"
+#include "surface/mesh/mesh_picture.h"
 #include "view/camera.h"
 
 namespace lumulus {
@@ -40,10 +41,11 @@ struct ViewState::State {
     std::optional<cloud::Atlas> lightFields;  ///< where the world has several visible instances
     std::map<int, draw::Interpolation> interpolations;  ///< by spacing
     std::optional<draw::Billboards::View> billboards;
-    std::optional<frame::Frame> frame;         ///< where passes follow the drawing
-    std::optional<frame::SkyPass> sky;         ///< where the sky is an atmosphere
-    std::optional<frame::MapPass> map;         ///< where it is a map
-    std::optional<draw::InstanceTiles> tiles;  ///< where the world has several visible instances
+    std::optional<frame::Frame> frame;          ///< where passes follow the drawing
+    std::optional<frame::SkyPass> sky;          ///< where the sky is an atmosphere
+    std::optional<frame::MapPass> map;          ///< where it is a map
+    std::optional<surface::MeshPixels> meshes;  ///< where the picture shows meshes
+    std::optional<draw::InstanceTiles> tiles;   ///< where the world has several visible instances
 };
 
 }  // namespace lumulus

@@ -12,8 +12,8 @@
 
 #include "base/error.h"
 #include "base/number_table.h"
+#include "scene/check_file.h"
 #include "scene/schema.h"
-#include "scene/validate.h"
 
 namespace lumulus::scene {
 

@@ -16,12 +16,13 @@ struct ArraySection {
     std::size_t implied;  ///< entries of a scene that says nothing of them
 };
 
-inline constexpr std::array<ArraySection, 5> arraySections{{
+inline constexpr std::array<ArraySection, 6> arraySections{{
     {"cloud", "cloud", "clouds", 256, 1},
     {"field", "field", "fields", 64, 0},
     {"fog.media", "medium", "media", 256, 0},
     {"surface", "surface", "surfaces", 256, 0},
     {"lamp", "lamp", "lamps", 4096, 0},
+    {"mesh", "mesh", "meshes", 256, 0},
 }};
 
 /// The array section that is `path` or that `path` lies in, or null.

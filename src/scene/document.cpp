@@ -24,12 +24,13 @@ may stand for a whole number. NaN and infinity are refused everywhere.
 - Units: metres, degrees, W/m² and W/(m² sr) per channel of linear Rec. 709. Right-handed, +Y is up.
 - Paths are relative to the scene file.
 - `[[cloud]]` stands once for each cloud, at most 256 times. Where clouds overlap, their extinctions add up. A file
-  without `[[cloud]]` and `[[field]]` has one, `cloud = []` is a scene without any.
+  without `[[cloud]]`, `[[field]]` and `[[mesh]]` has one, `cloud = []` is a scene without any.
 - `[[field]]` stands once for each field of procedural clouds (docs/fields.md).
 - `[[fog.media]]` stands once for each medium; without one there is no fog. Keys that a medium's kind does not have are
   errors.
 - `[[surface]]` stands once for each opaque surface, for `lumulus reference` only: `render` refuses them.
 - `[[lamp]]` stands once for each lamp (docs/lamps.md).
+- `[[mesh]]` stands once for each triangle mesh (docs/meshes.md).
 - `--set section.key=value` overrides a key, `--set cloud.0.extinction=0.2` one of the first cloud,
   `--set cloud.veil.extinction=0.2` one of the cloud whose `name` is `veil`, `--set fog.media.0.visibility=500` one of
   the first medium. The index after the last one adds an entry. The value is TOML, or else a bare string:

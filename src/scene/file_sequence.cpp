@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/frame_name.h"
-#include "scene/validate.h"
+#include "scene/check_file.h"
 
 namespace lumulus::scene {
 

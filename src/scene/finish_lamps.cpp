@@ -2,35 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "base/error.h"
-#include "base/text.h"
 #include "scene/black_body.h"
 #include "scene/entry.h"
+#include "scene/entry_name.h"
 
 namespace lumulus::scene {
 namespace {
 
 constexpr double lumensPerWatt = 683.0;
-
-void checkName(const std::vector<Lamp>& lamps, std::size_t index, const Entry& entry) {
-    const std::string& name = lamps[index].name;
-    if (entry.settings.find(entry.path + "name") == nullptr) return;
-    const auto allowed = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-    };
-    const bool digit = !name.empty() && name[0] >= '0' && name[0] <= '9';
-    if (name.empty() || name.size() > 64 || digit || !std::ranges::all_of(name, allowed) ||
-        findKey("lamp." + name) != nullptr)
-        throw InputError(fmt::format("\"{}\" cannot be the name of a lamp", shortened(oneLine(name), 80)),
-                         entry.whereOf("name"),
-                         "give letters, digits, - and _, a letter first, and not the name of a key");
-    const auto same = std::ranges::find(lamps, name, &Lamp::name);
-    if (same != lamps.begin() + static_cast<std::ptrdiff_t>(index))
-        throw InputError(fmt::format("lamp.{} has the name \"{}\" already", same - lamps.begin(), name),
-                         entry.whereOf("name"), "give every lamp a name of its own");
-}
 
 void finishDirection(Lamp& lamp, const glm::dvec3* target, const Entry& entry) {
     const bool aimed = lamp.kind != LampKind::point;
@@ -77,7 +57,7 @@ void finishLamps(Draft& draft, const Settings& settings) {
     std::vector<Lamp>& lamps = draft.scene.lamps;
     for (std::size_t i = 0; i < lamps.size(); ++i) {
         const Entry entry{fmt::format("lamp.{}.", i), "lamp", settings};
-        checkName(lamps, i, entry);
+        checkEntryName(lamps, i, entry, "a lamp", "every lamp");
         finishDirection(lamps[i], valueOf(draft.lampTargets, i), entry);
         finishPower(lamps[i], valueOf(draft.lampLumens, i), valueOf(draft.lampTemperatures, i), entry);
     }

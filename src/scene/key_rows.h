@@ -52,5 +52,6 @@ std::vector<Key> storageKeys();
 std::vector<Key> fogKeys();
 std::vector<Key> mediumKeys();
 std::vector<Key> lampKeys();
+std::vector<Key> meshKeys();
 
 }  // namespace lumulus::scene

@@ -215,10 +215,26 @@ std::vector<Key> surfaceKeys() {
 const std::vector<Key>& schema() {
     static const std::vector<Key> all = [] {
         std::vector<Key> keys;
-        for (const auto& part :
-             {imageAndCameraKeys(), timeKeys(), sunAndSkyKeys(), atmosphereKeys(), mapKeys(), groundKeys(), cloudKeys(),
-              sequenceKeys(), phaseKeys(), fieldKeys(), fieldPhaseKeys(), preparationKeys(), storageKeys(),
-              detailKeys(), photonMapAndDrawKeys(), fogKeys(), mediumKeys(), surfaceKeys(), lampKeys()}) {
+        for (const auto& part : {imageAndCameraKeys(),
+                                 timeKeys(),
+                                 sunAndSkyKeys(),
+                                 atmosphereKeys(),
+                                 mapKeys(),
+                                 groundKeys(),
+                                 cloudKeys(),
+                                 sequenceKeys(),
+                                 phaseKeys(),
+                                 fieldKeys(),
+                                 fieldPhaseKeys(),
+                                 preparationKeys(),
+                                 storageKeys(),
+                                 detailKeys(),
+                                 photonMapAndDrawKeys(),
+                                 fogKeys(),
+                                 mediumKeys(),
+                                 surfaceKeys(),
+                                 lampKeys(),
+                                 meshKeys()}) {
             keys.insert(keys.end(), part.begin(), part.end());
         }
         return keys;

@@ -55,7 +55,9 @@ Scene readScene(const Sources& from, std::optional<std::size_t>& current) {
     draft.frame = from.frame;
     draft.fps = fps;
     draft.scene.fields.resize(settings.entries("field"));
-    draft.scene.clouds.resize(settings.entries("cloud", draft.scene.fields.empty() ? 1 : 0));
+    draft.scene.meshes.resize(settings.entries("mesh"));
+    draft.scene.clouds.resize(
+        settings.entries("cloud", draft.scene.fields.empty() && draft.scene.meshes.empty() ? 1 : 0));
     draft.scene.fog.media.resize(settings.entries("fog.media"));
     draft.scene.surfaces.resize(settings.entries("surface"));
     draft.scene.lamps.resize(settings.entries("lamp"));

@@ -13,6 +13,7 @@
 #include "scene/field.h"
 #include "scene/fog.h"
 #include "scene/lamp.h"
+#include "scene/mesh.h"
 #include "scene/phase.h"
 #include "scene/sky.h"
 #include "scene/surface.h"
@@ -170,6 +171,7 @@ struct Scene {
     Fog fog;
     std::vector<Surface> surfaces;
     std::vector<Lamp> lamps;
+    std::vector<Mesh> meshes;
     std::string source;    ///< file name, for messages and the EXR header
     double seconds = 0.0;  ///< time of the frame: fields have been carried by their wind so long
 

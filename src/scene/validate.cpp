@@ -9,10 +9,12 @@
 #include "base/text.h"
 #include "scene/alternatives.h"
 #include "scene/check_field.h"
+#include "scene/check_file.h"
 #include "scene/entry.h"
 #include "scene/file_sequence.h"
 #include "scene/finish_fog.h"
 #include "scene/finish_lamps.h"
+#include "scene/finish_meshes.h"
 #include "scene/finish_sky.h"
 #include "scene/phase_table_file.h"
 #include "scene/sun_and_moon.h"
@@ -94,19 +96,6 @@ void finishSurface(Surface& surface, std::size_t index, const Settings& settings
     surface.normal = entry.unitVector("normal", surface.normal);
 }
 
-/// Refuses a file of the key `path` that does not exist or may not be read. `kind`: "an OpenVDB file".
-void checkFile(const std::filesystem::path& file, const std::string& path, const char* kind,
-               std::span<const std::filesystem::path> allowed, const Settings& settings) {
-    if (file.empty()) return;
-    std::error_code ec;
-    const bool exists = isAllowed(file, allowed) && std::filesystem::exists(file, ec);
-    if (!exists || std::filesystem::is_directory(file, ec)) {
-        throw InputError(fmt::format("{} {}", file.string(), exists ? "is a folder" : "does not exist"),
-                         whereOf(settings, {path.c_str()}),
-                         fmt::format("give {}, its path relative to the scene file", kind));
-    }
-}
-
 /// Reads the table of a phase function once, so that what is wrong with it is said with the key.
 void checkPhaseTable(const Phase& phase, const std::string& cloud, std::span<const std::filesystem::path> allowed,
                      const Settings& settings) {
@@ -172,16 +161,6 @@ void checkName(const std::vector<Cloud>& clouds, std::size_t index, const Settin
 
 }  // namespace
 
-bool isAllowed(const std::filesystem::path& file, std::span<const std::filesystem::path> folders) {
-    if (folders.empty()) return true;
-    std::error_code ec;
-    const std::filesystem::path real = std::filesystem::weakly_canonical(file, ec);
-    return !ec && std::ranges::any_of(folders, [&](const std::filesystem::path& folder) {
-        const std::filesystem::path base = std::filesystem::weakly_canonical(folder, ec);
-        return !ec && std::ranges::mismatch(base, real).in1 == base.end();
-    });
-}
-
 Scene finishScene(Draft draft, const Settings& settings) {
     checkAlternatives(settings);
     checkImage(draft.scene.image, settings);
@@ -208,6 +187,7 @@ Scene finishScene(Draft draft, const Settings& settings) {
     finishFog(draft, settings);
     for (std::size_t i = 0; i < draft.scene.surfaces.size(); ++i) finishSurface(draft.scene.surfaces[i], i, settings);
     finishLamps(draft, settings);
+    finishMeshes(draft, settings);
     draft.scene.seconds = draft.frame / draft.fps;
     return std::move(draft.scene);
 }

@@ -8,9 +8,6 @@
 
 namespace lumulus::scene {
 
-/// True if the file lies in one of the folders, with links followed, or if no folders are given.
-bool isAllowed(const std::filesystem::path& file, std::span<const std::filesystem::path> folders);
-
 /// Finishes a scene: checks keys that depend on each other (alternatives, the camera's axes, the number of pixels,
 /// files that must exist, parameters without effect) and computes the sun's direction. Errors: InputError.
 Scene finishScene(Draft draft, const Settings& settings);

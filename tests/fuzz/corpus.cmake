@@ -15,6 +15,7 @@ endfunction()
 
 corpus_test(chunks LINK lumulus_protocol lumulus_service_render lumulus_base)
 corpus_test(exr LINK lumulus_base)
+corpus_test(gltf LINK lumulus_mesh)
 corpus_test(scene LINK lumulus_scene)
 corpus_test(session SOURCES ${CMAKE_CURRENT_LIST_DIR}/session_lengths_test.cpp LINK lumulus_protocol lumulus_base)
 corpus_test(vdb SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/unit/vdb_throwing_new.cpp LINK lumulus_vdb)

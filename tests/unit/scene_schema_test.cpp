@@ -49,6 +49,8 @@ std::string companionOf(const Key& key) {
     if (key.name == "ground.albedo") return "height = 0.0\n";
     if (key.name == "ground.height") return "albedo = 0.2\n";
     if (key.name.starts_with("lamp.")) return companionOfLamp(name);
+    if (key.name.starts_with("mesh."))
+        return name == "gltf" ? "" : "gltf = \"" SOURCE_ROOT "/configs/scenes/aircraft.glb\"\n";
     if (name == "droplet_diameter") return "phase.model = \"droplet\"\n";
     if (key.name == "cloud.offset") return "";
     if (name == "falloff" || name == "direction" || name == "offset") return "kind = \"exponential\"\n";

@@ -14,6 +14,7 @@
 #include "shared/frame.h"
 #include "shared/ground.h"
 #include "shared/lit_fog.h"
+#include "shared/mesh.h"
 #include "shared/photon.h"
 #include "shared/sky_view.h"
 #include "shared/world.h"
@@ -35,6 +36,7 @@ namespace spirv {
 #include "spirv/draw/billboard_mean.comp.h"
 #include "spirv/draw/billboards.comp.h"
 #include "spirv/draw/interpolate.comp.h"
+#include "spirv/draw/march.comp.h"
 #include "spirv/fog/chain_fetch.comp.h"
 #include "spirv/fog/exact.comp.h"
 #include "spirv/fog/join.comp.h"
@@ -57,6 +59,7 @@ namespace spirv {
 #include "spirv/light/light_mass.comp.h"
 #include "spirv/light/shadow_volume.comp.h"
 #include "spirv/light/shared_shadow.comp.h"
+#include "spirv/mesh/rays.comp.h"
 #include "spirv/photon/accumulate.comp.h"
 #include "spirv/photon/gather.comp.h"
 #include "spirv/photon/ground_counts.comp.h"
@@ -136,6 +139,16 @@ TEST(SharedLayout, Photon) {
     EXPECT_PUSH(accumulate_comp, AccumulatePush, coefficients, shift, keepSlots);
     EXPECT_PUSH(reconstruct_comp, ReconstructPush, collectors, scale, eye, voxelToWorld, sunDirection, axisBase,
                 angleScale);
+}
+
+TEST(SharedLayout, Mesh) {
+    EXPECT_LAYOUT(rays_comp, MeshNode, lower0, upper0, lower1, upper1, child0, child1, count0, count1);
+    EXPECT_LAYOUT(rays_comp, MeshTriangle, corner, edge1, edge2);
+    EXPECT_LAYOUT(rays_comp, MeshInstance, toModel, shift, root, firstTriangle, number);
+    EXPECT_LAYOUT(rays_comp, MeshRay, origin, least, direction, most, fromInstance, fromTriangle);
+    EXPECT_LAYOUT(rays_comp, MeshHit, distance, instance, triangle, place);
+    EXPECT_LAYOUT(march_comp, MeshPixel, radiance, distance, edge);
+    EXPECT_PUSH(rays_comp, MeshPush, rays, anyHit);
 }
 
 TEST(SharedLayout, Draw) {

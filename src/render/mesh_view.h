@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+
+#include "frame/frame.h"
+#include "render/gpu_work.h"
+#include "render/world.h"
+#include "surface/mesh/mesh_picture.h"
+#include "view/view.h"
+
+namespace lumulus {
+
+/// The meshes of a scene as pictures show them.
+class MeshView {
+  public:
+    /// Errors: those of surface::MeshScene and surface::RayTracer.
+    MeshView(gpu::Context& context, const scene::Scene& scene, const Check& check);
+
+    /// What surrounds the meshes: a panorama from their middle, but above a ground.
+    View surroundings(const World& world) const;
+    /// Sets the light that they stand in. `seen`: the picture of surroundings(), without meshes. Errors: what `check`
+    /// throws.
+    void setLight(gpu::Context& context, World& world, const LayeredImage& seen, const Check& check);
+    /// The meshes in a part of a picture, without what is before them. After setLight().
+    surface::MeshPixels draw(GpuWork& work, const World& world, const Camera& camera, const Tile& tile, bool coarse,
+                             const Check& check);
+
+  private:
+    surface::MeshScene scene_;
+    surface::RayTracer tracer_;
+    std::optional<surface::MeshLight> light_;
+    std::optional<surface::MeshShading> shading_;
+};
+
+/// Refuses what a renderer cannot do with meshes. `served`: scenes are changed while they are shown.
+void requireDrawableMeshes(const scene::Scene& scene, bool served);
+
+/// Draws meshes where there is no cloud before them, into the image or, where it is null, the frame of the view, which
+/// show() has set and whose tile `tile` is.
+void paintMeshes(GpuWork& work, const surface::MeshPixels& meshes, const Tile& tile, const glm::vec3& sky,
+                 const frame::Frame* frame, LayeredImage* image);
+
+}  // namespace lumulus
