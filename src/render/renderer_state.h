@@ -9,6 +9,7 @@
 
 #include "fog/lit/lit_fog.h"
 #include "fog/screen/fog.h"
+#include "render/fog_change_view.h"
 #include "render/gpu_work.h"
 #include "render/ground_view.h"
 #include "render/painter.h"
@@ -41,6 +42,7 @@ struct Renderer::State {
     std::optional<Painter> painter;
     std::optional<fog::Fog> fog;
     std::optional<fog::LitFog> litFog;
+    std::optional<FogChangeView> fogChange;
     std::optional<GroundView> ground;
     std::vector<scene::Lamp> lamps;           ///< that shine
     std::map<std::size_t, glm::dvec3> moved;  ///< ways of the clouds that do not lie where the scene has them [m]
