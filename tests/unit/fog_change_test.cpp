@@ -91,7 +91,7 @@ TEST(FogChange, ACloudThatIsNotThereChangesNothing) {
     for (const double x : {-1500.0, -150.0, 0.0, 120.0, 900.0}) {
         const FogChange::Scattered found = change.scatteredAt({x, 150.0, 20.0}, {0.0, 0.0, 1.0});
         EXPECT_EQ(found.turned, glm::dvec3(0.0));
-        EXPECT_EQ(found.glow, glm::dvec3(0.0));
+        EXPECT_EQ(found.once, glm::dvec3(0.0));
     }
 }
 
@@ -134,9 +134,8 @@ TEST(FogChange, ACloudLightsTheSunnySideAndDarkensTheOther) {
     const FogChange change = changeIn(light, box(0.05), 1.0, 40000);
     EXPECT_GT(fluence(change, {140.0, 200.0, 0.0}), 0.1);
     EXPECT_LT(fluence(change, {-200.0, 60.0, 0.0}), -0.05);
-    // seen towards the sun from its shadow, the sun's glow is missing
-    const glm::dvec3 towardsEye = -light.setting().toSun;
-    EXPECT_LT(change.scatteredAt({-160.0, 40.0, 0.0}, towardsEye).glow.y, 0.0);
+    // seen towards the sun from its shadow, what the fog scatters of its beam is missing
+    EXPECT_LT(change.scatteredAt({-160.0, 40.0, 0.0}, -light.setting().toSun).once.y, 0.0);
 }
 
 TEST(FogChange, MorePhotonsHaveLessNoise) {

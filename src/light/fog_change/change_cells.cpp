@@ -68,9 +68,7 @@ void ChangeCells::add(std::span<const Passing> passing) {
                 for (int c = 0; c < 3; ++c, ++to) {
                     to[0] += one.light[c];
                     to[3] += one.straight[c];
-                    to[6] += one.glow[c];
                 }
-                to[6] += one.times * (one.glow.x + one.glow.y + one.glow.z) / 3.0F;
                 continue;
             }
             for (const float harmonic : harmonicsOf(one.direction))
@@ -131,8 +129,6 @@ Travelling ChangeCells::at(const glm::dvec3& point, const std::array<float, coef
             made.bands[l] += harmonics[i] * glm::vec3(sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]);
     made.beam = {sums[beamPlace], sums[beamPlace + 1], sums[beamPlace + 2]};
     made.straight = {sums[beamPlace + 3], sums[beamPlace + 4], sums[beamPlace + 5]};
-    made.glow = {sums[beamPlace + 6], sums[beamPlace + 7], sums[beamPlace + 8]};
-    made.times = sums[beamPlace + 9];
     return made;
 }
 

@@ -18,16 +18,12 @@ struct Passing {
     glm::vec3 light{0.0F};      ///< W/m²
     bool isBeam = false;        ///< whether it is the sun's beam, which at most peaks of the fog have scattered
     glm::vec3 straight{0.0F};   ///< of a beam, what not even peaks have scattered [W/m²]
-    glm::vec3 glow{0.0F};       ///< of a beam, what peaks have scattered since it met a cloud [W/m²]
-    float times = 0.0F;         ///< how often they have and will have, when they scatter it once more
 };
 
 /// Light that travels through a point.
 struct Travelling {
     std::array<glm::vec3, bandCount> bands{};  ///< without the beam; weighed by harmonics of one direction, by band
     glm::vec3 beam{0.0F}, straight{0.0F};      ///< the beam, and what of it peaks have not scattered [W/m²]
-    glm::vec3 glow{0.0F};                      ///< as in Passing [W/m²]
-    float times = 0.0F;                        ///< mean of the glow's colours times Passing::times
 };
 
 /// Light by place and direction, with a sign, in squares of cells around a middle: each level is twice as wide as the
@@ -58,7 +54,7 @@ class ChangeCells {
 
   private:
     static constexpr std::size_t beamPlace = 3 * coefficientCount;
-    using Sums = std::array<float, beamPlace + 10>;
+    using Sums = std::array<float, beamPlace + 6>;
 
     std::size_t layers() const { return heights_.size() - 1; }
     std::size_t layerOf(double height) const;
@@ -69,7 +65,7 @@ class ChangeCells {
     glm::dvec2 middle_;
     double halfWidth_;
     std::vector<double> heights_, middles_;
-    std::vector<float> light_;  ///< [level][layer][z][x]: [coefficient][colour], beam, straight, glow, times
+    std::vector<float> light_;  ///< [level][layer][z][x]: [coefficient][colour], beam, straight
 };
 
 /// Harmonics of a direction.

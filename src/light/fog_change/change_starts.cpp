@@ -133,7 +133,7 @@ void ChangeStarts::followSun(std::uint64_t number, PairWalk& walk) const {
         if (place.inwards[axis] != 0.0)  // of the two faces the one that the sun sees
             place.position[axis] =
                 sources_.toSun[axis] > 0.0 ? sources_.clouds.upper()[axis] : sources_.clouds.lower()[axis];
-    Photon photon{place.position, -sources_.toSun, {}, Photon::Beam{}};
+    Photon photon{place.position, -sources_.toSun, {}, glm::dvec3(0.0)};
     walk.follow(
         photon,
         [&] {

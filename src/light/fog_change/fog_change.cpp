@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "light/fog_change/change_starts.h"
 
@@ -52,13 +51,6 @@ std::vector<double> heightsFor(const fog_light::FogLight& fog, const CloudGrid& 
     return heights;
 }
 
-/// Phase function of light that peaks of a mean cosine scatter several times, where 1 − cos of the angle is `away`:
-/// that of von Mises and Fisher.
-double spreadBeam(double cosine, double times, double away) {
-    const double width = std::max(1.0 - std::pow(cosine, times), 1e-6);
-    return std::exp(-away / width) / (2.0 * std::numbers::pi * width * -std::expm1(-2.0 / width));
-}
-
 ChangeCells cellsFor(const ChangeSources& sources) {
     const CloudGrid& clouds = sources.clouds;
     const glm::dvec3 middle = 0.5 * (clouds.lower() + clouds.upper()), half = 0.5 * (clouds.upper() - clouds.lower());
@@ -90,8 +82,6 @@ FogChange::Scattered FogChange::scatteredAt(const glm::dvec3& point, const glm::
                                             const std::array<float, coefficientCount>& harmonics) const {
     const Travelling light = cells_.at(point, harmonics);
     Scattered made;
-    const double glow = static_cast<double>(light.glow.x + light.glow.y + light.glow.z) / 3.0;
-    const double times = glow == 0.0 ? 2.0 : std::clamp(static_cast<double>(light.times) / glow, 2.0, 100.0);
     const double cosine = -glm::dot(direction, toSun_);
     for (const WalkedLayer& walked : paths_.layers()) {
         const double density = walked.layer.density(point.y);
@@ -101,8 +91,6 @@ FogChange::Scattered FogChange::scatteredAt(const glm::dvec3& point, const glm::
         for (std::size_t l = 0; l < light.bands.size(); ++l) turned += phase.moments()[l] * glm::dvec3(light.bands[l]);
         made.turned += density * walked.scattering * turned;
         made.once += density * walked.scattering * phase.value(cosine) * glm::dvec3(light.straight);
-        made.glow +=
-            density * walked.peak * glm::dvec3(light.glow) * spreadBeam(phase.peakCosine(), times, 1.0 - cosine);
     }
     return made;
 }
@@ -128,8 +116,7 @@ void FogChange::seeRay(const Ray& ray, ChangeSeen& seen, std::size_t place) cons
             const double height = ray.origin.y, rise = ray.direction.y;
             const glm::dvec3 straight = glm::exp(-paths_.peakDepth(height, rise, middle));
             // what nothing has scattered before or after is no part of it
-            sum += (to - from) * (light.turned + straight * (light.glow - light.once)) *
-                   glm::exp(-paths_.depth(height, rise, middle));
+            sum += (to - from) * (light.turned - straight * light.once) * glm::exp(-paths_.depth(height, rise, middle));
         }
         seen.light[static_cast<std::size_t>(depth + 1) * plane + place] = glm::vec4(glm::vec3(sum), 0.0F);
     }

@@ -47,7 +47,6 @@ class FogChange {
     struct Scattered {
         glm::dvec3 turned{0.0};  ///< beyond a peak
         glm::dvec3 once{0.0};    ///< the part of it that is the sun's and was not scattered before
-        glm::dvec3 glow{0.0};    ///< of the sun's beam, within peaks
     };
     Scattered scatteredAt(const glm::dvec3& point, const glm::dvec3& direction) const;
 

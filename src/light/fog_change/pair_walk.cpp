@@ -50,10 +50,7 @@ void PairWalk::scatterInCloud(Photon& photon, Numbers& numbers) const {
 void PairWalk::go(Photon& photon, double length, bool leave, Numbers& numbers) {
     if (leave) leaveOnWay(photon, length, numbers);
     const double height = photon.position.y, rise = photon.direction.y;
-    if (photon.beam) {
-        photon.beam->peaks += world_.fog.peakDepth(height, rise, length);
-        photon.beam->metres += length;
-    }
+    if (photon.beam) *photon.beam += world_.fog.peakDepth(height, rise, length);
     if (!world_.fog.isGrey()) photon.light *= glm::exp(-world_.fog.excessDepth(height, rise, length));
     photon.position += length * photon.direction;
 }
@@ -73,7 +70,6 @@ void PairWalk::follow(Photon photon, const std::function<glm::dvec3()>& lightOf,
             photon.light *= lightOf();
             Photon other = photon;
             other.light = -other.light;
-            if (other.beam) other.beam = {other.beam->peaks, other.beam->peaks, 0.0};
             walk(other, true, numbers);
             scatterInCloud(photon, numbers);
             walk(photon, false, numbers);
@@ -174,40 +170,13 @@ void PairWalk::leaveOnPart(const Photon& photon, int level, double from, double 
                         glm::vec3(photon.direction)};
         const double scale = step / world_.cells.volume(passing.cell);
         if (photon.beam) {
-            leaveGlow(photon, at, step, light, numbers);
             passing.isBeam = true;
-            const glm::dvec3 depth = photon.beam->peaks + world_.fog.peakDepth(height, rise, at);
+            const glm::dvec3 depth = *photon.beam + world_.fog.peakDepth(height, rise, at);
             passing.straight = glm::vec3(scale * light * glm::exp(-depth));
         }
         passing.light = glm::vec3(scale * light);
         passing_.push_back(passing);
     }
-}
-
-/// Leaves what peaks have scattered of a beam since it met a cloud: beside it, by the angle at which they scatter light
-/// that the next one scatters back to about the beam's direction.
-void PairWalk::leaveGlow(const Photon& photon, double at, double step, const glm::dvec3& light, Numbers& numbers) {
-    constexpr double turn = 0.054;  // of such an angle, across the beam along each axis [radians]
-    const ChangeCells& cells = world_.cells;
-    const glm::dvec3 depth = photon.beam->peaks + world_.fog.peakDepth(photon.position.y, photon.direction.y, at);
-    const glm::dvec3 sinceCloud = depth - photon.beam->beforeCloud;
-    const double mean = std::max((sinceCloud.x + sinceCloud.y + sinceCloud.z) / 3.0, 1e-6);
-    const double times = 1.0 - mean / std::expm1(-mean);
-    const double aside =
-        turn * (photon.beam->metres + at) * numbers.next() * std::sqrt(times - 1.0) * std::sqrt(2.0 * numbers.depth());
-    const glm::dvec3 across = turned(photon.direction, 0.0, 2.0 * pi * numbers.next());
-    const glm::dvec3 place = photon.position + at * photon.direction + aside * across;
-    if (place.y < cells.bottom() || place.y > cells.top()) return;
-    int level = 0;
-    const double away = std::max(std::abs(place.x - cells.middle().x), std::abs(place.z - cells.middle().y));
-    while (level < ChangeCells::levels && away >= cells.halfWidth(level)) ++level;
-    if (level == ChangeCells::levels) return;
-    Passing glow{cells.cellAt(level, place), glm::vec3(photon.direction)};
-    glow.isBeam = true;
-    glow.glow =
-        glm::vec3(step / cells.volume(glow.cell) * light * (glm::exp(-photon.beam->beforeCloud) - glm::exp(-depth)));
-    glow.times = static_cast<float>(times);
-    passing_.push_back(glow);
 }
 
 }  // namespace lumulus::fog_change

@@ -60,13 +60,8 @@ struct PairWorld {
 struct Photon {
     glm::dvec3 position{0.0}, direction{0.0, 1.0, 0.0};
     glm::dvec3 light{0.0};  ///< W, with a sign
-    /// Of the sun's beam, which has not been scattered but by peaks of the fog: their optical depth by colour, and the
-    /// part of it before a cloud, and metres since.
-    struct Beam {
-        glm::dvec3 peaks{0.0}, beforeCloud{0.0};
-        double metres = 0.0;
-    };
-    std::optional<Beam> beam{};
+    /// Of the sun's beam, which has not been scattered but by peaks of the fog: their optical depth by colour.
+    std::optional<glm::dvec3> beam{};
 };
 
 /// Follows photons and leaves what passes through cells. What a cloud changes is the difference of two photons that
@@ -87,7 +82,6 @@ class PairWalk {
     void go(Photon& photon, double length, bool leave, Numbers& numbers);
     void leaveOnWay(const Photon& photon, double length, Numbers& numbers);
     void leaveOnPart(const Photon& photon, int level, double from, double to, Numbers& numbers);
-    void leaveGlow(const Photon& photon, double at, double step, const glm::dvec3& light, Numbers& numbers);
     void scatterInFog(Photon& photon, std::size_t layer, Numbers& numbers) const;
     void scatterInCloud(Photon& photon, Numbers& numbers) const;
 
