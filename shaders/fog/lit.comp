@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Fog in the light of sun and sky: what it sends towards the eye from before and behind the clouds, and what it leaves of
 // all that is seen through it. Without clouds the light is a difference of that at both ends of a path (fog_light.h); where
-// clouds throw shadows, the sun's light that is missing there is taken off step by step.
+// clouds throw shadows, the sun's light that is missing there is taken off step by step. What clouds change in the light that
+// fog scatters more often is known beforehand (light/fog_change/fog_change.h).
 #include "shared/lit_fog.h"
 #include "lib/view.glsl"
 
@@ -11,6 +12,7 @@ layout(constant_id = 4) const bool MANY = false;      // more than one cloud
 layout(constant_id = 6) const bool GROUND = false;
 layout(constant_id = 20) const bool SHADOWS = false;  // clouds throw shadows
 layout(constant_id = 24) const bool AIR = false;      // the sky is an atmosphere's, whose planet is round
+layout(constant_id = 25) const bool CHANGED = false;  // clouds change the light of the fog
 layout(binding = 0, rgba32f) uniform image2D cloud;
 layout(binding = 1, rgba32f) uniform image2D radiance;
 layout(binding = 2) uniform sampler2D depth;
@@ -18,7 +20,6 @@ layout(binding = 3, scalar) readonly buffer Params { LitFogParams storedParams; 
 layout(binding = 4, scalar) readonly buffer Media { FogMedium media[]; };
 layout(binding = 5) uniform sampler2D levelTable;   // which level lies at a height
 layout(binding = 6) uniform sampler3D scattered;    // FogLight::scattered(): columns, rows, levels
-layout(binding = 35) uniform sampler3D scatteredOfSun;  // the part of it that the sun has sent
 layout(binding = 7) uniform sampler3D onceScattered;  // FogLight::once(): rows, levels, media
 layout(binding = 10) uniform sampler2D groundSeen;  // RGB: radiance; alpha: share of the pixel
 // What clouds send more or less than the fog without them would; what of it is scattered on its way is spread by the filter.
@@ -26,6 +27,7 @@ layout(binding = 11, rgba32f) uniform writeonly image2D moreLight;
 layout(binding = 12, rgba32f) uniform writeonly image2D lessLight;
 layout(binding = 13, scalar) buffer Summary { LitFogSummary summary; };
 layout(binding = 34) uniform sampler2D skyBehind;   // radiance of the sky, where it differs
+layout(binding = 35) uniform sampler3D changeSeen;  // ChangeSeen: columns, rows, depths
 
 // Held in registers: a load from a buffer costs a loop over the lanes on lavapipe.
 LitFogParams params;
@@ -33,11 +35,8 @@ FogMedium first;
 #include "lib/cloud_shadow.glsl"
 #include "lib/lit_fog_ray.glsl"
 #include "lib/lit_fog_depth.glsl"
+#include "lib/taken_light.glsl"
 
-/// Of sunlight that was scattered before and comes through a cloud's shadow, what is missing there: some of it the filter
-/// takes off with what the cloud hides, most of it where the sun is behind the cloud, and some comes from the side. Measured
-/// (docs/experiments/fog-light.md).
-const vec2 SCATTERED_SHARE = vec2(0.4, 0.22);  // seen from the side, and towards the sun
 /// Parts of a path in which shadows are looked for.
 const int STEPS = 12;
 
@@ -57,29 +56,22 @@ vec3 onceAt(float level, float row, float cosine) {
     return params.sunIrradiance * sum;
 }
 
-/// Where the rest of it is in its tables.
-vec3 scatteredPlace(float level, float row, float column) {
-    return vec3((column + 0.5) / float(FOG_COLUMNS), (row + 0.5) / float(2 * FOG_ROWS), (level + 0.5) / float(params.levels));
-}
-
 /// All light of the fog that is seen from a height, over its opacity along the ray.
 vec3 lightAt(Ray ray, float height) {
     const float level = levelAt(height), row = ray.side * float(FOG_ROWS) + ray.row;
-    return textureLod(scattered, scatteredPlace(level, row, ray.column), 0.0).rgb + onceAt(level, row, ray.cosine);
+    const vec3 place = vec3((ray.column + 0.5) / float(FOG_COLUMNS), (row + 0.5) / float(2 * FOG_ROWS),
+                            (level + 0.5) / float(params.levels));
+    return textureLod(scattered, place, 0.0).rgb + onceAt(level, row, ray.cosine);
 }
 
 float heightAt(Ray ray, float distance_) { return params.eyeHeight + ray.origin.y + distance_ * ray.direction.y; }
 
-/// The sun's light of fog that clouds keep off: x to y of the ray's distances and, where `second`, y to z. What a step has of
+/// The sun's light that fog scatters once and clouds keep off: x to y of the ray's distances and, where `second`, y to z. What a step has of
 /// it without clouds is a difference of that at both ends, exact however long the step is; `all`: the ray's optical depth.
 mat2x3 shadowed(Ray ray, vec3 ends, bool second, float offset, vec3 all) {
     mat2x3 sums = mat2x3(0.0);
-    vec3 before = vec3(0.0), lightBefore = vec3(0.0), moreBefore = vec3(0.0);
+    vec3 before = vec3(0.0), lightBefore = vec3(0.0);
     const float row = ray.side * float(FOG_ROWS) + ray.row;
-    const float scatteredShare = mix(SCATTERED_SHARE.x, SCATTERED_SHARE.y, smoothstep(0.8, 1.0, ray.cosine));
-    const vec3 across = normalize(cross(params.toSun, abs(params.toSun.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
-    const bool thins = first.kind == MEDIUM_EXPONENTIAL && first.axis.y > 0.0;
-    const float reach = thins ? 1.0 / (first.falloff * max(params.toSun.y, 1.0e-2)) : FAR_DEPTH;
     float thickness = 0.0, near = 0.0;
     for (int i = 0; i < (second ? 2 : 1) * (STEPS + 2); ++i) {
         // of each part first the depth of its end, then that of its beginning
@@ -91,27 +83,15 @@ mat2x3 shadowed(Ray ray, vec3 ends, bool second, float offset, vec3 all) {
         const vec3 after = depthTo(ray, far).extinction;
         const float level = levelAt(heightAt(ray, far));
         const vec3 opacity = max(exp(-after) - exp(-all), 0.0), light = onceAt(level, row, ray.cosine) * opacity;
-        const vec3 more = textureLod(scatteredOfSun, scatteredPlace(level, row, ray.column), 0.0).rgb * opacity;
         if (step >= 0) {
             const float at = mix(near, far, offset);
-            const vec3 place = ray.start + at * ray.towards, passed = after - before;
-            const vec3 lights[2] = vec3[](max(lightBefore - light, 0.0), scatteredShare * max(moreBefore - more, 0.0));
-            const float azimuth = 6.28318531 * fract(11.0 * offset + float(i) * 0.5497005);
-            const float u = clamp(fract(5.0 * offset + float(i) * 0.6180340), 0.01, 0.99);
-            Spread spread = Spread(vec3(0.0), max(passed.x, max(passed.y, passed.z)) / max(far - near, 1.0e-6), 0.0);
-            spread.reach = min(reach, (params.height - heightAt(ray, at)) / max(params.toSun.y, 1.0e-2));
-            for (int k = 0; k < 2; ++k) {
-                sums[part] += (1.0 - throughClouds(place, spread)) * lights[k];
-                spread.aside = params.besideMedian * pow(u / (1.0 - u), params.besidePower) *
-                               (cos(azimuth) * across + sin(azimuth) * cross(params.toSun, across));
-            }
+            sums[part] += (1.0 - throughClouds(ray.start + at * ray.towards)) * max(lightBefore - light, 0.0);
         } else if (step == -1) {
             const vec3 all = before - after;  // `before` is the depth of the end here
             thickness = min(all.x, min(all.y, all.z));
         }
         before = after;
         lightBefore = light;
-        moreBefore = more;
         near = far;
     }
     return sums;
@@ -129,6 +109,13 @@ vec2 rangeOfShadows(Ray ray, float limit) {
     const float one = -height / rise, other = (params.height - height) / rise;
     if (abs(rise) > 1.0e-6) range = vec2(max(range.x, min(one, other)), min(range.y, max(one, other)));
     return vec2(range.x, min(range.y, limit));
+}
+
+/// What clouds change in the light that the fog sends from the first metres of a pixel's way.
+vec3 changeAt(ivec2 pixel, float distance_) {
+    const vec2 place = (vec2(params.first + pixel) + 0.5) / vec2(params.view.size);
+    const float depth = sqrt(clamp((distance_ - params.changeNear) / (params.changeFar - params.changeNear), 0.0, 1.0));
+    return textureLod(changeSeen, (vec3(place, depth) * (params.changeSize - 1.0) + 0.5) / params.changeSize, 0.0).rgb;
 }
 
 /// Leaves what a cloud at a distance sends more or less than `without` for the filter.
@@ -180,16 +167,24 @@ void main() {
         ofFront = ofAll - through * there;
         without = there + rest * beyond;
     }
-    leaveForFilter(pixel, front, forwardShare(depths[1]), without, away + ray.entry);
+    // by how much less the fog dims light where what its peaks scatter counts as not scattered
+    leaveForFilter(pixel, front, exp(depths[1].peak - depths[1].extinction), without, away + ray.entry);
+    vec3 takenFront = vec3(0.0), takenAll = vec3(0.0);
     if (SHADOWS) {
         const vec2 range = rangeOfShadows(ray, limit);
         // interleaved gradient noise (Jimenez 2014)
         const float offset = fract(52.9829189 * fract(dot(vec2(params.first + pixel) + 0.5, vec2(0.06711056, 0.00583715))));
         const float middle = front.a > 0.0 ? min(range.y, away) : range.y;
         const mat2x3 hidden = shadowed(ray, vec3(range.x, middle, range.y), front.a > 0.0 && front.a < 0.999, offset, all);
-        ofFront -= hidden[0];
-        ofAll -= hidden[0] + hidden[1];
+        takenFront = hidden[0];
+        takenAll = hidden[0] + hidden[1];
     }
+    if (CHANGED) {
+        takenAll -= changeAt(pixel, FAR_DEPTH);
+        if (front.a > 0.0) takenFront -= changeAt(pixel, away + ray.entry);
+    }
+    ofFront = leftOf(ofFront, takenFront);
+    ofAll = leftOf(ofAll, takenAll);
     front.rgb = front.rgb * through + front.a * max(ofFront, 0.0);
     imageStore(cloud, pixel, front);
     imageStore(radiance, pixel, vec4(front.rgb + (1.0 - front.a) * max(ofAll, 0.0) + exp(-all) * behind, seen.a));

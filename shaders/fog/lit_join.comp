@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Adds to a picture of lit fog what of the clouds' light the filter has spread. What came straight is in it already.
 #include "shared/fog.h"
+#include "lib/taken_light.glsl"
 #include "lib/view.glsl"
 
 layout(local_size_x = 16, local_size_y = 4) in;
@@ -25,6 +26,6 @@ void main() {
     const vec3 straight = attenuatedShare(path) * texelFetch(before, pixel, 0).rgb;
     const vec3 spread = push.sign_ * max(texelFetch(after, pixel + push.margin, 0).rgb - straight, 0.0);
     const vec4 front = imageLoad(cloud, pixel), seen = imageLoad(radiance, pixel);
-    imageStore(cloud, pixel, vec4(max(front.rgb + spread, 0.0), front.a));
-    imageStore(radiance, pixel, vec4(max(seen.rgb + spread, 0.0), seen.a));
+    imageStore(cloud, pixel, vec4(leftOf(front.rgb, -spread), front.a));
+    imageStore(radiance, pixel, vec4(leftOf(seen.rgb, -spread), seen.a));
 }

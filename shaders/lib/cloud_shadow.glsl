@@ -26,25 +26,15 @@ vec3 casterDepth(int first, vec3 voxel) {
     return scale * textureLod(shadowVolume, place, 0.0).r;
 }
 
-/// Sunlight that fog scatters between the clouds and a place: it passed the clouds beside the line from there to the sun.
-struct Spread {
-    vec3 aside;        // across the sun's direction, for each metre of a way on which it was scattered once; 0: it was not
-    float extinction;  // of the fog [1/m]
-    float reach;       // of the fog towards the sun [m]
-};
-
 /// Share of the sun's light that the clouds let through to a place.
-vec3 throughClouds(vec3 point, Spread spread) {
+vec3 throughClouds(vec3 point) {
     float nearest = 3.4e38;
     int first = -1;
     vec3 entry = vec3(0.0);
     for (int caster = 0; caster < params.casters; ++caster) {
         const int at = CASTER_TEXELS * caster;
-        vec3 start = casterRows(at, vec4(point, 1.0));
+        const vec3 start = casterRows(at, vec4(point, 1.0));
         const vec3 velocity = casterRows(at, vec4(params.toSun, 0.0)), size = imageLoad(casters, at + 3).xyz;
-        const float middle = dot(0.5 * size - start, velocity) / dot(velocity, velocity);
-        const float way = clamp(middle, 0.0, spread.reach);
-        start += way * sqrt(max(1.0, spread.extinction * way)) * casterRows(at, vec4(spread.aside, 0.0));
         const Line line = lineFrom(start, velocity);
         const vec2 inside = clipToVolume(line, size);
         if (inside.x >= inside.y || inside.x >= nearest) continue;

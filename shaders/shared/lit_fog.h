@@ -27,10 +27,24 @@ struct LitFogParams {
     float aboveTop;       // of the eye above the fog; below 0 within it
     float planetHeight;   // of the eye above the middle of the planet
     vec3 up;              // at the eye
-    // How far beside light passes that was scattered once, for each metre of its way: m (u / (1 − u))^p of u in [0,1)
-    float besideMedian;
-    float besidePower;
+    // Light that clouds change (light/fog_change/fog_change.h): points of its table, and where that begins and ends [m]
+    vec3 changeSize;
+    float changeNear;
+    float changeFar;
 };
+
+/// Angle within which light that fog scatters may count as not scattered [radians], and its cosine.
+const float FOG_CUT = 0.26F;
+const float FOG_CUT_COSINE = 0.96639F;
+
+/// Share of light that a Henyey–Greenstein phase function scatters in its peak: that within the cut beyond the value
+/// there.
+SHARED_FN float peakShare(float g) {
+    if (g < 0.01F) return 0.0F;
+    const float there = sqrt(1.0F + g * g - 2.0F * g * FOG_CUT_COSINE);
+    const float within = (1.0F - g * g) / (2.0F * g) * (1.0F / (1.0F - g) - 1.0F / there);
+    return max(within - 6.28318531F * (1.0F - FOG_CUT_COSINE) * fogPhase(g, FOG_CUT_COSINE), 0.0F);
+}
 
 /// What the light of clouds has more or less than that of the fog without them: whether any pixel has some.
 struct LitFogSummary {
@@ -45,7 +59,7 @@ struct LitFogSummary {
 const int CASTER_TEXELS = 10;
 
 #ifdef __cplusplus
-static_assert(sizeof(LitFogParams) == 176 && offsetof(LitFogParams, besidePower) == 172);
+static_assert(sizeof(LitFogParams) == 188 && offsetof(LitFogParams, changeFar) == 184);
 static_assert(sizeof(LitFogSummary) == 12 && offsetof(LitFogSummary, farthest) == 8);
 #endif
 

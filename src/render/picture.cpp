@@ -154,18 +154,22 @@ void PictureOrder::drawLitFog(ViewState::State& state, const std::vector<shared:
     litFog->update(*world.fogLight, world.fogVersion);
     const fog::ShadowCasters casters = shadowCasters(world, state.camera);
     const gpu::Image* sky = state.sky ? state.sky->behind() : nullptr;
+    const fog_change::ChangeSeen* change =
+        fogChange != nullptr ? &fogChange->seenBy(work.context, world, state.camera, state.coarse, check) : nullptr;
     work.run([&](gpu::Commands& commands) {
         if (!sun.empty()) {
             state.frame->recordSun(commands, sun);
             commands.barrier("sun");
         }
-        litFog->record(commands, *state.frame, state.camera, state.tile, fogWithAir(world), casters, groundSeen, sky,
-                       world.airOverFog ? eyeAbove(*world.airOverFog, state.camera) : fog::EyeAbove{});
+        litFog->record(commands, *state.frame, state.camera, state.tile, fogWithAir(world), casters, change, groundSeen,
+                       sky, world.airOverFog ? eyeAbove(*world.airOverFog, state.camera) : fog::EyeAbove{});
     });
     const fog::LitFog::Excess excess = litFog->excess();
-    if (excess.more != nullptr) fog->addSpread(*state.frame, state.camera, *excess.more, 1.0F, excess.farthest);
-    if (excess.less != nullptr) fog->addSpread(*state.frame, state.camera, *excess.less, -1.0F, excess.farthest);
-    frame::addTimes(work.times, fog->takeTimes());
+    if (fogChange == nullptr) return;
+    fog::Fog& peaks = fogChange->peaks();
+    if (excess.more != nullptr) peaks.addSpread(*state.frame, state.camera, *excess.more, 1.0F, excess.farthest);
+    if (excess.less != nullptr) peaks.addSpread(*state.frame, state.camera, *excess.less, -1.0F, excess.farthest);
+    frame::addTimes(work.times, peaks.takeTimes());
 }
 
 /// The discs of sun and moon as an eye at this place would see them through the air above it.

@@ -2,6 +2,7 @@
 
 #include "fog/lit/lit_fog.h"
 #include "fog/screen/fog.h"
+#include "render/fog_change_view.h"
 #include "render/ground_view.h"
 #include "render/mesh_view.h"
 #include "render/painter.h"
@@ -13,13 +14,14 @@ namespace lumulus {
 struct PictureOrder {
     GpuWork& work;
     World& world;
-    const Painter* painter;  ///< null: there is nothing to draw
-    fog::Fog* fog;           ///< null: there is no fog
-    fog::LitFog* litFog;     ///< null: there is no fog in the light of sun and sky
-    GroundView* ground;      ///< null: there is no ground
-    MeshView* meshes;        ///< null: there are no meshes, or the picture leaves them out
-    int bands;               ///< of the photon map
-    int shadowReduction;     ///< that shadow volumes may have
+    const Painter* painter;    ///< null: there is nothing to draw
+    fog::Fog* fog;             ///< null: there is no fog
+    fog::LitFog* litFog;       ///< null: there is no fog in the light of sun and sky
+    FogChangeView* fogChange;  ///< null: there is none, or no cloud in it
+    GroundView* ground;        ///< null: there is no ground
+    MeshView* meshes;          ///< null: there are no meshes, or the picture leaves them out
+    int bands;                 ///< of the photon map
+    int shadowReduction;       ///< that shadow volumes may have
     const Check& check;
     const Report& report;
 

@@ -88,8 +88,10 @@ void Renderer::State::makePainters(const scene::Scene& scene) {
     statistics.device = context.device().name;
     if (!scene.fog.media.empty()) fog.emplace(context, world->fog, check);
     if (world->fogLight)
-        litFog.emplace(context, world->hasShadows(), world->sharedShadow.has_value(),
-                       world->lights.ground || world->airOverFog, world->airOverFog != nullptr);
+        litFog.emplace(context, fog::LitFog::Has{world->hasShadows(), world->sharedShadow.has_value(),
+                                                 world->lights.ground || world->airOverFog,
+                                                 world->airOverFog != nullptr, changesFog(*world)});
+    if (changesFog(*world)) fogChange.emplace(context, *world, check);
     if (world->shadedGround() != nullptr) ground.emplace(keepRing);
     for (const auto& asset : world->assets) statistics.collectors += asset->collectors.size();
     requireDrawableMeshes(scene, keepRing);
@@ -237,6 +239,7 @@ LayeredImage Renderer::draw(const View& view, ViewState& viewState) {
                        s.painter ? &*s.painter : nullptr,
                        s.fog ? &*s.fog : nullptr,
                        s.litFog ? &*s.litFog : nullptr,
+                       s.fogChange ? &*s.fogChange : nullptr,
                        s.ground ? &*s.ground : nullptr,
                        nullptr,
                        s.world->photonMap.bands,
@@ -262,9 +265,9 @@ Preview Renderer::preview() {
     State& s = *state_;
     ViewState viewState;
     s.show(viewState.state(), sceneView());
-    PictureOrder order{s.work,       *s.world, &*s.painter, nullptr,
-                       nullptr,      nullptr,  nullptr,     s.world->photonMap.bands,
-                       s.sunAllowed, s.check,  noReport};
+    PictureOrder order{
+        s.work,       *s.world, &*s.painter, nullptr, nullptr, nullptr, nullptr, nullptr, s.world->photonMap.bands,
+        s.sunAllowed, s.check,  noReport};
     Preview preview = order.preview(viewState.state());
     if (!s.image.background)
         for (LayeredImage* image : {&preview.even, &preview.odd}) frame::leaveOutBackground(*image);

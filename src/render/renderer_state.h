@@ -9,6 +9,7 @@
 
 #include "fog/lit/lit_fog.h"
 #include "fog/screen/fog.h"
+#include "render/fog_change_view.h"
 #include "render/gpu_work.h"
 #include "render/ground_view.h"
 #include "render/mesh_view.h"
@@ -42,6 +43,7 @@ struct Renderer::State {
     std::optional<Painter> painter;
     std::optional<fog::Fog> fog;
     std::optional<fog::LitFog> litFog;
+    std::optional<FogChangeView> fogChange;
     std::optional<GroundView> ground;
     std::optional<MeshView> meshes;
     std::vector<scene::Lamp> lamps;           ///< that shine

@@ -191,8 +191,8 @@ TEST(SharedLayout, Fog) {
     EXPECT_PUSH(split_comp, FogSplitPush, size, sky);
     EXPECT_PUSH(join_comp, FogJoinPush, first, size, clouded, lit);
     EXPECT_LAYOUT(lit_comp, LitFogParams, view, first, toSun, sunIrradiance, sunAcross, eyeHeight, height, levels,
-                  media, aboveGround, casters, inverseShadows, sky, airMedia, aboveTop, planetHeight, up, besideMedian,
-                  besidePower);
+                  media, aboveGround, casters, inverseShadows, sky, airMedia, aboveTop, planetHeight, up, changeSize,
+                  changeNear, changeFar);
     EXPECT_LAYOUT(lit_comp, LitFogSummary, more, less, farthest);
     EXPECT_PUSH(lit_join_comp, FogSpreadPush, view, skyDistance, media, sign_, margin);
     EXPECT_PUSH(margin_comp, FogMarginPush, margin);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "frame/view_params.h"
 #include "gpu/groups.h"
@@ -39,24 +38,6 @@ std::vector<float> levelTable(const std::vector<double>& levels) {
     return table;
 }
 
-Beside besideOf(double g) {
-    constexpr int count = 4096;
-    constexpr double ratios[6] = {0.8566749, 0.7338919, 0.6287067, 0.5385972, 0.4614028, 0.3952725};  // an R sequence
-    std::vector<double> widths;
-    for (int i = 0; i < count; ++i) {
-        double sum = 0.0;
-        for (int k = 0; k < 3; ++k) {
-            const double u = std::fmod(0.5 + i * ratios[2 * k], 1.0), v = std::fmod(0.5 + i * ratios[2 * k + 1], 1.0);
-            const double root = (1.0 - g * g) / (1.0 - g + 2.0 * g * u);
-            const double cosine = std::abs(g) < 1e-3 ? 2.0 * u - 1.0 : (1.0 + g * g - root * root) / (2.0 * g);
-            sum += v * v * (1.0 / std::max(cosine * cosine, 2.5e-3) - 1.0);  // beyond 87° it comes from far away
-        }
-        widths.push_back(std::sqrt(sum / 3.0));
-    }
-    std::ranges::sort(widths);
-    return {widths[count / 2], std::log(widths[3 * count / 4] / widths[count / 4]) / (2.0 * std::log(3.0))};
-}
-
 template <class Size, class Texels>
 void upload(gpu::Context& context, std::optional<gpu::Image>& image, const char* name, const Size& size,
             VkFormat format, const Texels& texels) {
@@ -67,28 +48,28 @@ void upload(gpu::Context& context, std::optional<gpu::Image>& image, const char*
 
 }  // namespace
 
-LitFog::LitFog(gpu::Context& context, bool shadows, bool many, bool ground, bool air)
+LitFog::LitFog(gpu::Context& context, const Has& has)
     : context_(context),
-      ground_(ground),
+      ground_(has.ground),
       program_(context, "lit", spirv::lit_comp,
-               {gpu::SpecConstant::of(4, many), gpu::SpecConstant::of(6, ground), gpu::SpecConstant::of(20, shadows),
-                gpu::SpecConstant::of(24, air)}),
+               {gpu::SpecConstant::of(4, has.many), gpu::SpecConstant::of(6, has.ground),
+                gpu::SpecConstant::of(20, has.shadows), gpu::SpecConstant::of(24, has.air),
+                gpu::SpecConstant::of(25, has.change)}),
       params_(context, "lit fog params", sizeof(shared::LitFogParams), gpu::Memory::host),
       summary_(context, "lit fog summary", sizeof(shared::LitFogSummary), gpu::Memory::host),
       none_(context, "no ground", glm::ivec2(1), lightFormat),
-      noVolume_(context, "no shadow", glm::ivec3(1), VK_FORMAT_R32_SFLOAT) {}
+      noVolume_(context, "no shadow", glm::ivec3(1), VK_FORMAT_R32_SFLOAT),
+      noChange_(context, "no change", glm::ivec3(1), lightFormat) {}
 
 void LitFog::update(const fog_light::FogLight& light, std::uint64_t version) {
     light_ = &light;
     if (version_ == version) return;
     version_ = version;
-    beside_ = besideOf(light.layers().front().g);
     const auto levels = static_cast<int>(light.levels().size());
     upload(context_, levels_, "fog levels", glm::ivec2(shared::FOG_HEIGHTS, 1), VK_FORMAT_R32_SFLOAT,
            levelTable(light.levels()));
     const glm::ivec3 table(shared::FOG_COLUMNS, 2 * shared::FOG_ROWS, levels);
     upload(context_, scattered_, "fog scattered", table, lightFormat, texelsOf(light.scattered()));
-    upload(context_, ofSun_, "fog scattered of the sun", table, lightFormat, texelsOf(light.scatteredOfSun()));
     std::vector<glm::vec4> once;
     for (const auto& medium : light.once())
         for (const glm::vec3& value : medium) once.emplace_back(value, 1.0F);
@@ -119,15 +100,24 @@ shared::LitFogParams LitFog::paramsOf(const Camera& camera, const Tile& tile, co
     params.casters = static_cast<int>(casters.texels.size()) / shared::CASTER_TEXELS;
     params.inverseShadows = casters.inverseSize;
     params.sky = glm::vec3(setting.sky);
-    params.besideMedian = static_cast<float>(beside_.median);
-    params.besidePower = static_cast<float>(beside_.power);
     return params;
 }
 
 void LitFog::record(gpu::Commands& commands, const frame::Frame& frame, const Camera& camera, const Tile& tile,
-                    const scene::Fog& fog, const ShadowCasters& casters, const std::vector<glm::vec4>& groundSeen,
-                    const gpu::Image* skyBehind, const EyeAbove& eye) {
-    params_.mapped<shared::LitFogParams>()[0] = paramsOf(camera, tile, casters, eye);
+                    const scene::Fog& fog, const ShadowCasters& casters, const fog_change::ChangeSeen* change,
+                    const std::vector<glm::vec4>& groundSeen, const gpu::Image* skyBehind, const EyeAbove& eye) {
+    shared::LitFogParams& params = params_.mapped<shared::LitFogParams>()[0];
+    params = paramsOf(camera, tile, casters, eye);
+    if (change != nullptr) {
+        params.changeSize = glm::vec3(change->size);
+        params.changeNear = static_cast<float>(change->near);
+        params.changeFar = static_cast<float>(change->far);
+        if (!change_ || change_->extent() != change->size) {
+            change_.reset();
+            change_.emplace(context_, "fog change", change->size, lightFormat);
+        }
+        gpu::upload(context_, *change_, change->light);
+    }
     glm::dvec3 place = camera.position;  // of the eye as level fog has it
     if (eye.aboveTop) place.y = light_->top() + *eye.aboveTop;
     std::vector<shared::FogMedium> media = mediaAround(fog, place);
@@ -154,7 +144,7 @@ void LitFog::record(gpu::Commands& commands, const frame::Frame& frame, const Ca
          {"Media", *media_},
          {"levelTable", *levels_, gpu::Sampler::linearClamp},
          {"scattered", *scattered_, gpu::Sampler::linearClamp},
-         {"scatteredOfSun", *ofSun_, gpu::Sampler::linearClamp},
+         {"changeSeen", change_ ? *change_ : noChange_, gpu::Sampler::linearClamp},
          {"onceScattered", *once_, gpu::Sampler::linearClamp},
          {"casters", *casters_},
          {"shadowVolume", casters.volumes != nullptr ? *casters.volumes : noVolume_, gpu::Sampler::linearClamp},
