@@ -176,11 +176,11 @@ void warnOfBackwardPeaks(const scene::Scene& scene, WorldReport& report) {
             return;
         }
         if (scene.sun.irradiance != glm::dvec3(0.0) && report.clouds[i].meanThickness > thick) {
-            report.warnings.push_back(
-                fmt::format("cloud.{} scatters backwards (phase.g {:g}) and is thick: sunlight in it is some 10 % too "
-                            "bright, and up to half where the sun stands behind it; render --correct takes the bias out, "
-                            "lumulus reference is exact",
-                            report.clouds[i].name, cloud.phase.g));
+            report.warnings.push_back(fmt::format(
+                "cloud.{} scatters backwards (phase.g {:g}) and is thick: sunlight in it is some 10 % too "
+                "bright, and up to half where the sun stands behind it; render --correct takes the bias out, "
+                "lumulus reference is exact",
+                report.clouds[i].name, cloud.phase.g));
             return;
         }
     }
