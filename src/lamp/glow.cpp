@@ -15,7 +15,7 @@ namespace {
 /// Parts of the paths that threads share; each has sums of its own, which are added in their order.
 constexpr std::size_t parts = 16;
 /// Effective number of shares below which a coarser level is taken, and above which none of it is.
-constexpr float few = 3.0F, many = 20.0F, fewInClouds = 4.0F, manyInClouds = 40.0F;
+constexpr float few = 3.0F, many = 20.0F, fewInClouds = 30.0F, manyInClouds = 200.0F;
 /// Least part of a cell that clouds are taken to cover.
 constexpr double leastCover = 1e-3;
 /// Rays across a cell by which that part is found.

@@ -245,7 +245,9 @@ PictureError Meter::result() const {
             relMse.add(probe.weight * relMseOf(probe));
             error.lost += static_cast<std::uint64_t>(probe.lost);
         }
-        block.sigma = std::sqrt(difference.variance());
+        // where all paths saw the same, as in a block of one thin pixel, one path more could still move it by so much
+        const double onePath = meanOf(block.mean) / (static_cast<double>(cell.count) * static_cast<double>(paths_));
+        block.sigma = std::max(std::sqrt(difference.variance()), onePath);
         bias += share * difference.mean();
         biasVariance += share * share * difference.variance();
         error.relMse += share * relMse.mean();
