@@ -159,9 +159,9 @@ struct LightCountsPush {
     float massScale;       // ∫ normalised density [voxels] → ∫ σt' dV [m²]
     float photon;          // mean luminance of a photon [W]
     float moment;          // of the phase function, of band 1
-    float thickness;       // ∫ normalised density [voxels] → edge of a cell in transport mean free paths, on average in it
-    uint occupied;         // cells with density, the first of the list
-    uint firstCollector;   // of the instance, among those of all
+    float thickness;  // ∫ normalised density [voxels] → edge of a cell in transport mean free paths, on average in it
+    uint occupied;    // cells with density, the first of the list
+    uint firstCollector;  // of the instance, among those of all
 };
 
 #ifdef __cplusplus
