@@ -102,24 +102,6 @@ FogLight::FogLight(const std::vector<FogLayer>& layers, const FogSetting& settin
             for (std::size_t i = 0; i < seen.size(); ++i) once_[n][i][c] = static_cast<float>(seen[i]);
         }
     addAir();
-    FogSetting dark = setting_;
-    dark.sun = glm::dvec3(0.0);
-    // a sky that differs by direction is brightest about the sun, and so is what fog scatters of it
-    const int skyModes = setting.skyAt ? modeCount : 1;
-    std::vector<Solved> ofSky(3, Solved{std::vector<Vector>(static_cast<std::size_t>(skyModes)), 0.0});
-    tbb::parallel_for(0, 3 * skyModes, [&](int task) {
-        check();
-        const auto c = static_cast<std::size_t>(task % 3);
-        solveMode(stacks[c], dark, sky, task % 3, task / 3, ofSky[c]);
-    });
-    findLightOfSun(seenByAzimuth(ofSky));
-}
-
-/// `ofSky`: by colour, [level][row][column].
-void FogLight::findLightOfSun(const std::vector<Vector>& ofSky) {
-    for (std::size_t i = 0; i < scattered_.size(); ++i)
-        scatteredOfSun_.push_back(
-            glm::max(scattered_[i] - glm::vec3(ofSky[0][i], ofSky[1][i], ofSky[2][i]), glm::vec3(0.0F)));
 }
 
 /// Air scatters so evenly that a table by direction has what it scatters once, too.

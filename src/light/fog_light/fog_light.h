@@ -42,8 +42,6 @@ class FogLight {
     /// Light that fog has scattered last, but for that of the sun that droplets scattered once, over the share of light
     /// that the fog along the row lets not pass [W/(m² sr)]: [level][row][column] of shared/fog_light.h.
     const std::vector<glm::vec3>& scattered() const { return scattered_; }
-    /// The part of scattered() that the sun has sent and not the sky, in the same order.
-    const std::vector<glm::vec3>& scatteredOfSun() const { return scatteredOfSun_; }
     /// Of a layer of droplets: the sun's light that it scattered once, over that share, irradiance and phase function:
     /// [level][row].
     const std::vector<std::vector<glm::vec3>>& once() const { return once_; }
@@ -65,7 +63,6 @@ class FogLight {
 
   private:
     void addAir();
-    void findLightOfSun(const std::vector<std::vector<double>>& ofSky);
     struct Place {
         std::size_t level;
         double share;  ///< of the next one
@@ -77,7 +74,7 @@ class FogLight {
     std::vector<FogLayer> layers_;
     FogSetting setting_;
     std::vector<double> levels_;
-    std::vector<glm::vec3> scattered_, scatteredOfSun_;
+    std::vector<glm::vec3> scattered_;
     std::vector<std::vector<glm::vec3>> once_;
     std::vector<glm::dvec3> above_;  ///< optical depth above each level
     glm::dvec3 irradianceBelow_{0.0};
