@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <iostream>
 #include <string>
 
 #include "base/interrupt.h"
 #include "lamp/lamp_picture.h"
 #include "reference/render.h"
 #include "scene/load.h"
+#include "stat/picture_distance.h"
 #include "view/camera.h"
 
 // Pictures of lamps in fog against those of the path tracer.
@@ -81,35 +81,12 @@ LayeredImage truth(const scene::Scene& scene, int samples, int scatterings) {
     return renderer.picture();
 }
 
-struct Distance {
-    double bias = 0.0;      ///< of the sum of all pixels
-    double relative = 0.0;  ///< relMSE, without the reference's own noise
-};
-
-Distance distanceOf(const LayeredImage& image, const LayeredImage& reference) {
-    double sum = 0.0, expected = 0.0, error = 0.0;
-    const double epsilon = 1e-2;
-    for (const char* name : {"R", "G", "B"}) {
-        const std::vector<float>& found = image.layers.at(name);
-        const std::vector<float>& right = reference.layers.at(name);
-        const std::vector<float>& variance = reference.layers.at(std::string("variance.") + name);
-        double mean = 0.0;
-        for (const float value : right) mean += static_cast<double>(value);
-        mean /= static_cast<double>(right.size());
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            const auto f = static_cast<double>(found[i]), r = static_cast<double>(right[i]);
-            sum += f;
-            expected += r;
-            error += ((f - r) * (f - r) - static_cast<double>(variance[i])) / (r * r + epsilon * mean * mean);
-        }
-    }
-    return {sum / expected - 1.0, error / (3.0 * static_cast<double>(image.pixels()))};
-}
+using test::Distance;
+using test::distanceOf;
 
 Distance compared(const std::string& lamps, int samples, int scatterings, int paths) {
     const scene::Scene scene = scene::parseScene(around + lamps, "x.toml");
     const Distance found = distanceOf(drawn(scene, paths), truth(scene, samples, scatterings));
-    std::cout << "bias " << found.bias << ", relMSE " << found.relative << "\n";
     return found;
 }
 
