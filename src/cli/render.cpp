@@ -153,7 +153,7 @@ void runRender(const RenderOptions& options) {
     LightMaps maps(options.maps, scene);
 
     Steps steps(options.quiet);
-    ErrorOfPicture error(options.error, steps);
+    ErrorOfPicture error(options.error, options.quality, steps);
     RendererOptions how{options.device, options.validate, steps.reporter()};
     how.read = error.reader();
     how.progressive = progressive(options);
@@ -176,7 +176,8 @@ void runRender(const RenderOptions& options) {
     const Statistics statistics = renderer.statistics();
     for (const std::string& warning : std::span(statistics.warnings).subspan(told)) logWarning(warning);
 
-    error.measure(image, scene, secondsSince(start));
+    if (!options.outputs.empty())
+        error.measure(image, scene, statistics.clouds, secondsSince(start), options.seconds.has_value());
     noteOrigin(image, scene, statistics);
 
     const Clock::time_point writing = Clock::now();
@@ -185,7 +186,7 @@ void runRender(const RenderOptions& options) {
     const double seconds = secondsSince(start);
     if (reached) tellReached(options, statistics, *reached, seconds - error.seconds());
     error.tell(options.quiet);
-    writeStatistics(options.stats, statisticsJson(statistics, reached, writeSeconds, seconds, error.json()));
+    writeStatistics(options.stats, statisticsJson(statistics, reached, writeSeconds, seconds, &error));
     tellDefaults(scene, options.quiet);
     requireNoMessages(options.validate, statistics);
 }

@@ -17,8 +17,12 @@ void addErrorOptions(CLI::App& command, ErrorOptions& options) {
         .add_option("--error-paths", options.paths,
                     "Measure the error by this many paths at least, whatever time they take: its bits repeat")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40U));
-    command.add_flag("--correct", options.correct,
-                     "Measure the error and take it out of the picture, whose mean then has no bias");
+    command.add_flag(
+        "--correct", options.correct,
+        "Correct the picture by unbiased paths, so that its mean has no bias, and measure the error that is "
+        "left");
+    command.add_flag("--no-correct", options.uncorrected,
+                     "Do not correct pictures of clouds whose light photons alone make wrong");
 }
 
 }  // namespace

@@ -67,9 +67,6 @@ void checkOptions(const RenderOptions& options, std::int64_t firstFrame) {
     if (options.seconds || options.targetError)
         throw InputError("frames have the number of photons that their scene asks for",
                          options.seconds ? "--seconds" : "--target-error", "leave it out, or leave out --frames");
-    if (options.error.used())
-        throw InputError("the error of a picture is measured for one picture alone", "--error",
-                         "leave it out, or leave out --frames");
     if (options.maps.used())
         throw InputError("photon maps in files are of one picture", "--frames",
                          "leave it out, or leave out --map-in, --map-out and --generations");
@@ -81,6 +78,8 @@ void checkOptions(const RenderOptions& options, std::int64_t firstFrame) {
                              "write #### or %04d where the number goes");
     }
     DisplayTransform::ofEnvironment();
+    Steps silent(true);
+    ErrorOfPicture(options.error, options.quality, silent);  // checks them
     std::vector<std::filesystem::path> places = namesOf(options, firstFrame);
     if (!options.stats.empty() && options.stats != "-") places.emplace_back(options.stats);
     checkPlaces(places);
@@ -145,10 +144,12 @@ class Frames {
             LayeredImage image = renderer.draw(view);
             stopIfInterrupted();
             const Statistics statistics = renderer.statistics();
+            ErrorOfPicture error(options_.error, options_.quality, steps_);
+            error.measure(image, scene, statistics.clouds, secondsSince(start), false);
             noteOrigin(image, scene, statistics);
             const auto writing = Clock::now();
             writePictures(namesOf(options_, frame.frame), image, scene.image);
-            note(frame.frame, statistics, secondsSince(writing), secondsSince(start));
+            note(frame.frame, statistics, secondsSince(writing), secondsSince(start), error);
             requireNoMessages(options_.validate, statistics);
         });
     }
@@ -206,19 +207,21 @@ class Frames {
     static double secondsSince(Clock::time_point start) {
         return std::chrono::duration<double>(Clock::now() - start).count();
     }
-    void note(std::int64_t frame, const Statistics& statistics, double writing, double whole) {
+    void note(std::int64_t frame, const Statistics& statistics, double writing, double whole,
+              const ErrorOfPicture& error) {
         if (warned_ != statistics.warnings)
             for (const std::string& warning : statistics.warnings) logWarning(warning);
         warned_ = statistics.warnings;
         if (options_.stats.empty()) return;
         if (!statistics_.empty()) statistics_ += ", ";
         statistics_ += fmt::format("{{\"frame\": {}, \"statistics\": {}}}", frame,
-                                   statisticsJson(statistics, std::nullopt, writing, whole));
+                                   statisticsJson(statistics, std::nullopt, writing, whole, &error));
     }
 
     const RenderOptions& options_;
     const FrameScenes& scenes_;
     KnownPlaces places_;
+    Steps steps_{true};
     bool told_ = false;  ///< of the clouds of the first frame
     job::FrameRenderer renderer_;
     Clock::time_point kept_ = Clock::now();

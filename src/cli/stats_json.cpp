@@ -54,7 +54,7 @@ Json preparationJson(const std::vector<AssetSummary>& assets) {
 }  // namespace
 
 std::string statisticsJson(const Statistics& s, const std::optional<ProgressiveStatistics>& progressive,
-                           double writeSeconds, double totalSeconds, const Json& error) {
+                           double writeSeconds, double totalSeconds, const ErrorOfPicture* error) {
     Json passes = Json::array();
     for (const PassTime& pass : s.passes) passes.push_back({{"name", pass.name}, {"ms", pass.milliseconds}});
     Json clouds = Json::array();
@@ -99,7 +99,7 @@ std::string statisticsJson(const Statistics& s, const std::optional<ProgressiveS
                                {"generations", s.generations},
                                {"preview_seconds", progressive->previewSeconds}};
     }
-    if (!error.is_null()) json["error"] = error;
+    if (error != nullptr) error->addTo(json);
     // names of devices and files may hold bytes that are no UTF-8
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

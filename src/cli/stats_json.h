@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
+#include "cli/render_error.h"
 #include "render/renderer.h"
 
 namespace lumulus::cli {
@@ -17,9 +17,9 @@ struct ProgressiveStatistics {
 };
 
 /// The text for --stats: one JSON object and a newline. The caller gives the seconds of writing and of the whole run,
-/// and what it measured of the error, if it did.
+/// and what it made of the error, or null.
 std::string statisticsJson(const Statistics& statistics, const std::optional<ProgressiveStatistics>& progressive,
-                           double writeSeconds, double totalSeconds, const nlohmann::ordered_json& error = nullptr);
+                           double writeSeconds, double totalSeconds, const ErrorOfPicture* error = nullptr);
 
 /// Writes the JSON to the place of --stats: a file, stdout for "-", nowhere if empty. Errors: those of writing.
 void writeStatistics(const std::string& where, const std::string& json);

@@ -42,6 +42,7 @@ PathSample AnyTracer::trace(const Ray& ray, Random& random) const {
     sample.radiance += moonlight.radiance;
     sample.passed += moonlight.passed;
     sample.lost = sample.lost || moonlight.lost;
+    sample.events += moonlight.events;
     return sample;
 }
 

@@ -7,10 +7,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "reference/any_tracer.h"
 #include "reference/metrics.h"
-#include "view/camera.h"
-#include "view/ground.h"
+#include "reference/random.h"
 
 namespace lumulus::reference {
 namespace {
@@ -64,152 +62,6 @@ double importanceOf(const glm::dvec3& colour, double mean) {
     return 0.5 + (mean > 0.0 ? 0.5 * std::max(0.0, meanOf(colour)) / mean : 0.5);
 }
 
-class Meter {
-  public:
-    Meter(const LayeredImage& picture, const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes,
-          std::uint64_t seed, std::vector<std::size_t> pixels)
-        : colours_(picture),
-          camera_(makeCamera(scene.camera, scene.image, boundsOf(volumes))),
-          tracer_(groundedScene(scene, boundsOf(volumes)), volumes, Majorant::local),
-          skyUnit_(scene.image.background ? tracer_.skyUnit() : glm::dvec3(0.0)),
-          width_(static_cast<std::size_t>(picture.width)),
-          seed_(seed + ownSeed),
-          pixels_(std::move(pixels)) {
-        divide(picture);
-    }
-
-    /// Seconds that a path takes on all threads, by a trial.
-    double secondsOfPath() const;
-    /// Draws the pixels for about so many paths.
-    void draw(double paths);
-
-    std::size_t pathsOfARound() const { return probes_.size() * pathsOfRound; }
-
-    /// Traces some paths through each probe.
-    void round(const std::function<void(double)>& progress) {
-        const std::size_t some = tracer_.hazy() ? 1024 : 8192;
-        for (std::size_t begin = 0; begin < probes_.size(); begin += some) {
-            const std::size_t end = std::min(begin + some, probes_.size());
-            tbb::parallel_for(begin, end, [this](std::size_t probe) { trace(probe); });
-            progress(static_cast<double>(end) / static_cast<double>(probes_.size()));
-        }
-        paths_ += pathsOfRound;
-    }
-
-    PictureError result() const;
-
-  private:
-    void divide(const LayeredImage& picture);
-    glm::dvec3 traced(std::size_t pixel, Random& random, int& lost) const;
-    void trace(std::size_t number);
-
-    /// What a probe says of the mean difference, and of the relMSE.
-    glm::dvec3 differenceOf(const Probe& probe) const {
-        return colours_[probe.pixel] - probe.sum / static_cast<double>(paths_);
-    }
-    double relMseOf(const Probe& probe) const;
-
-    Colours colours_;
-    Camera camera_;
-    AnyTracer tracer_;
-    glm::dvec3 skyUnit_;  ///< AnyTracer's; black where the background is left out
-    std::size_t width_;
-    std::uint64_t seed_;
-    std::vector<std::size_t> pixels_;  ///< counted ones
-    int edge_ = 1;
-    double mean_ = 0.0;
-    std::vector<Cell> cells_;
-    std::vector<Probe> probes_;
-    std::uint64_t paths_ = 0;  ///< of each probe
-};
-
-void Meter::divide(const LayeredImage& picture) {
-    edge_ = std::max(1, (picture.height + 7) / 8);
-    const int columns = (picture.width + edge_ - 1) / edge_, rows = (picture.height + edge_ - 1) / edge_;
-    cells_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-    for (int i = 0; i < columns * rows; ++i) {
-        ErrorBlock& block = cells_[static_cast<std::size_t>(i)].block;
-        block.x = i % columns * edge_;
-        block.y = i / columns * edge_;
-        block.width = std::min(edge_, picture.width - block.x);
-        block.height = std::min(edge_, picture.height - block.y);
-    }
-    for (const std::size_t pixel : pixels_) {
-        const std::size_t x = pixel % width_, y = pixel / width_, edge = static_cast<std::size_t>(edge_);
-        Cell& cell = cells_[y / edge * static_cast<std::size_t>(columns) + x / edge];
-        cell.pixels.push_back(pixel);
-        cell.block.mean += colours_[pixel];
-        mean_ += meanOf(colours_[pixel]) / static_cast<double>(pixels_.size());
-    }
-    std::erase_if(cells_, [](const Cell& cell) { return cell.pixels.empty(); });
-    for (Cell& cell : cells_) {
-        cell.block.pixels = cell.pixels.size();
-        cell.block.mean /= static_cast<double>(cell.pixels.size());
-        for (const std::size_t pixel : cell.pixels) cell.importance += importanceOf(colours_[pixel], mean_);
-    }
-}
-
-double Meter::secondsOfPath() const {
-    constexpr std::size_t trials = 512;
-    const Clock::time_point start = Clock::now();
-    tbb::parallel_for(std::size_t{0}, trials, [this](std::size_t i) {
-        Random random(seed_ + 1, i, 0);
-        int lost = 0;
-        traced(pixels_[i * pixels_.size() / trials], random, lost);
-    });
-    return std::chrono::duration<double>(Clock::now() - start).count() / static_cast<double>(trials);
-}
-
-/// Of each block, one pixel in each of equal parts of the importance.
-void Meter::draw(double paths) {
-    const auto counted = static_cast<double>(pixels_.size());
-    const double wanted = std::min(std::clamp(paths / pathsOfPixel, fewestPixels, mostPixels), counted);
-    for (Cell& cell : cells_) {
-        const double share = cell.importance / counted;  // importance has a mean of 1
-        cell.first = probes_.size();
-        cell.count = std::max(fewestOfBlock, static_cast<std::size_t>(std::lround(wanted * share)));
-        const double step = cell.importance / static_cast<double>(cell.count);
-        Random random(seed_, 0, cell.pixels.front());
-        std::size_t at = 0;
-        double behind = importanceOf(colours_[cell.pixels.front()], mean_);
-        for (std::size_t k = 0; k < cell.count; ++k) {
-            const double place = (static_cast<double>(k) + random.uniform()) * step;
-            while (behind < place && at + 1 < cell.pixels.size())
-                behind += importanceOf(colours_[cell.pixels[++at]], mean_);
-            const double chance = importanceOf(colours_[cell.pixels[at]], mean_) / cell.importance;
-            probes_.push_back({cell.pixels[at], 1.0 / (chance * static_cast<double>(cell.pixels.size()))});
-        }
-    }
-}
-
-/// A path through a random point of a pixel.
-glm::dvec3 Meter::traced(std::size_t pixel, Random& random, int& lost) const {
-    const double px = static_cast<double>(pixel % width_) + random.uniform();
-    const double py = static_cast<double>(pixel / width_) + random.uniform();
-    const PathSample path = tracer_.trace(camera_.ray(px, py), random);
-    lost += path.lost ? 1 : 0;
-    return path.radiance + path.passed * skyUnit_;
-}
-
-void Meter::trace(std::size_t number) {
-    Probe& probe = probes_[number];
-    for (std::uint64_t i = 0; i < pathsOfRound; ++i) {
-        Random random(seed_, number + 1, paths_ + i);
-        const glm::dvec3 radiance = traced(probe.pixel, random, probe.lost);
-        probe.sum += radiance;
-        probe.square += radiance * radiance;
-    }
-}
-
-double Meter::relMseOf(const Probe& probe) const {
-    constexpr double floor = 0.01;
-    const auto m = static_cast<double>(paths_);
-    const glm::dvec3 seen = probe.sum / m, shown = colours_[probe.pixel];
-    if (!(mean_ > 0.0)) return 0.0;
-    const glm::dvec3 noise = glm::max(probe.square / m - seen * seen, glm::dvec3(0.0)) / (m - 1.0);
-    return meanOf(((shown - seen) * (shown - seen) - noise) / (shown * shown + floor * mean_ * mean_));
-}
-
 /// A mean of weighted values, and the variance of that mean by their scatter.
 struct Scatter {
     double count = 0.0, sum = 0.0, square = 0.0;
@@ -226,23 +78,153 @@ struct Scatter {
     }
 };
 
-PictureError Meter::result() const {
+}  // namespace
+
+class ErrorProbes::Meter {
+  public:
+    Meter(const LayeredImage& picture, std::uint64_t seed, std::vector<std::size_t> pixels)
+        : width_(static_cast<std::size_t>(picture.width)), seed_(seed + ownSeed), pixels_(std::move(pixels)) {
+        divide(picture);
+    }
+
+    /// Seconds that a path takes on all threads, by a trial.
+    double secondsOfPath(const PixelPaths& paths) const;
+    /// Draws the pixels for about so many paths.
+    void draw(const LayeredImage& picture, double paths);
+
+    std::size_t pathsOfARound() const { return probes_.size() * pathsOfRound; }
+
+    /// Traces some paths through each probe.
+    void round(const PixelPaths& paths, const std::function<void(double)>& progress) {
+        const std::size_t some = paths.hazy() ? 1024 : 8192;
+        for (std::size_t begin = 0; begin < probes_.size(); begin += some) {
+            const std::size_t end = std::min(begin + some, probes_.size());
+            tbb::parallel_for(begin, end, [&](std::size_t probe) { trace(paths, probe); });
+            progress(static_cast<double>(end) / static_cast<double>(probes_.size()));
+        }
+        paths_ += pathsOfRound;
+    }
+
+    void tookSeconds(double seconds) { seconds_ = seconds; }
+    PictureError errorOf(const LayeredImage& picture) const;
+
+  private:
+    void divide(const LayeredImage& picture);
+    void trace(const PixelPaths& paths, std::size_t number);
+    /// What a probe says of the relMSE of a picture of this mean that shows this colour there.
+    double relMseOf(const Probe& probe, const glm::dvec3& shown, double mean) const;
+
+    std::size_t width_;
+    std::uint64_t seed_;
+    std::vector<std::size_t> pixels_;  ///< counted ones
+    int edge_ = 1;
+    double mean_ = 0.0;  ///< of the picture that the probes were drawn for
+    std::vector<Cell> cells_;
+    std::vector<Probe> probes_;
+    std::uint64_t paths_ = 0;  ///< of each probe
+    double seconds_ = 0.0;
+};
+
+void ErrorProbes::Meter::divide(const LayeredImage& picture) {
+    const Colours colours(picture);
+    edge_ = std::max(1, (picture.height + 7) / 8);
+    const int columns = (picture.width + edge_ - 1) / edge_, rows = (picture.height + edge_ - 1) / edge_;
+    cells_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    for (int i = 0; i < columns * rows; ++i) {
+        ErrorBlock& block = cells_[static_cast<std::size_t>(i)].block;
+        block.x = i % columns * edge_;
+        block.y = i / columns * edge_;
+        block.width = std::min(edge_, picture.width - block.x);
+        block.height = std::min(edge_, picture.height - block.y);
+    }
+    for (const std::size_t pixel : pixels_) {
+        const std::size_t x = pixel % width_, y = pixel / width_, edge = static_cast<std::size_t>(edge_);
+        Cell& cell = cells_[y / edge * static_cast<std::size_t>(columns) + x / edge];
+        cell.pixels.push_back(pixel);
+        mean_ += meanOf(colours[pixel]) / static_cast<double>(pixels_.size());
+    }
+    std::erase_if(cells_, [](const Cell& cell) { return cell.pixels.empty(); });
+    for (Cell& cell : cells_) {
+        cell.block.pixels = cell.pixels.size();
+        for (const std::size_t pixel : cell.pixels) cell.importance += importanceOf(colours[pixel], mean_);
+    }
+}
+
+double ErrorProbes::Meter::secondsOfPath(const PixelPaths& paths) const {
+    constexpr std::size_t trials = 512;
+    const Clock::time_point start = Clock::now();
+    tbb::parallel_for(std::size_t{0}, trials, [&](std::size_t i) {
+        Random random(seed_ + 1, i, 0);
+        paths.trace(pixels_[i * pixels_.size() / trials], random);
+    });
+    return std::chrono::duration<double>(Clock::now() - start).count() / static_cast<double>(trials);
+}
+
+/// Of each block, one pixel in each of equal parts of the importance.
+void ErrorProbes::Meter::draw(const LayeredImage& picture, double paths) {
+    const Colours colours(picture);
+    const auto counted = static_cast<double>(pixels_.size());
+    const double wanted = std::min(std::clamp(paths / pathsOfPixel, fewestPixels, mostPixels), counted);
+    for (Cell& cell : cells_) {
+        const double share = cell.importance / counted;  // importance has a mean of 1
+        cell.first = probes_.size();
+        cell.count = std::max(fewestOfBlock, static_cast<std::size_t>(std::lround(wanted * share)));
+        const double step = cell.importance / static_cast<double>(cell.count);
+        Random random(seed_, 0, cell.pixels.front());
+        std::size_t at = 0;
+        double behind = importanceOf(colours[cell.pixels.front()], mean_);
+        for (std::size_t k = 0; k < cell.count; ++k) {
+            const double place = (static_cast<double>(k) + random.uniform()) * step;
+            while (behind < place && at + 1 < cell.pixels.size())
+                behind += importanceOf(colours[cell.pixels[++at]], mean_);
+            const double chance = importanceOf(colours[cell.pixels[at]], mean_) / cell.importance;
+            probes_.push_back({cell.pixels[at], 1.0 / (chance * static_cast<double>(cell.pixels.size()))});
+        }
+    }
+}
+
+void ErrorProbes::Meter::trace(const PixelPaths& paths, std::size_t number) {
+    Probe& probe = probes_[number];
+    for (std::uint64_t i = 0; i < pathsOfRound; ++i) {
+        Random random(seed_, number + 1, paths_ + i);
+        const PixelSample sample = paths.trace(probe.pixel, random);
+        probe.sum += sample.radiance;
+        probe.square += sample.radiance * sample.radiance;
+        probe.lost += sample.lost ? 1 : 0;
+    }
+}
+
+double ErrorProbes::Meter::relMseOf(const Probe& probe, const glm::dvec3& shown, double mean) const {
+    constexpr double floor = 0.01;
+    const auto m = static_cast<double>(paths_);
+    const glm::dvec3 seen = probe.sum / m;
+    if (!(mean > 0.0)) return 0.0;
+    const glm::dvec3 noise = glm::max(probe.square / m - seen * seen, glm::dvec3(0.0)) / (m - 1.0);
+    return meanOf(((shown - seen) * (shown - seen) - noise) / (shown * shown + floor * mean * mean));
+}
+
+PictureError ErrorProbes::Meter::errorOf(const LayeredImage& picture) const {
+    const Colours colours(picture);
     PictureError error;
-    error.mean = mean_;
     error.edge = edge_;
+    error.pixels = pixels_.size();
     error.paths = probes_.size() * paths_;
-    for (const Cell& cell : cells_) error.pixels += cell.pixels.size();
+    error.seconds = seconds_;
+    for (const std::size_t pixel : pixels_) error.mean += meanOf(colours[pixel]) / static_cast<double>(pixels_.size());
     double bias = 0.0, biasVariance = 0.0, relMseVariance = 0.0;
     for (const Cell& cell : cells_) {
         const double share = static_cast<double>(cell.pixels.size()) / static_cast<double>(error.pixels);
         Scatter difference, relMse;
         ErrorBlock& block = error.blocks.emplace_back(cell.block);
+        for (const std::size_t pixel : cell.pixels) block.mean += colours[pixel];
+        block.mean /= static_cast<double>(cell.pixels.size());
         for (std::size_t i = cell.first; i < cell.first + cell.count; ++i) {
             const Probe& probe = probes_[i];
-            const glm::dvec3 off = probe.weight * differenceOf(probe);
+            const glm::dvec3 shown = colours[probe.pixel];
+            const glm::dvec3 off = probe.weight * (shown - probe.sum / static_cast<double>(paths_));
             block.difference += off / static_cast<double>(cell.count);
             difference.add(meanOf(off));
-            relMse.add(probe.weight * relMseOf(probe));
+            relMse.add(probe.weight * relMseOf(probe, shown, error.mean));
             error.lost += static_cast<std::uint64_t>(probe.lost);
         }
         // where all paths saw the same, as in a block of one thin pixel, one path more could still move it by so much
@@ -253,15 +235,13 @@ PictureError Meter::result() const {
         error.relMse += share * relMse.mean();
         relMseVariance += share * share * relMse.variance();
     }
-    if (mean_ > 0.0) {
-        error.bias = bias / mean_;
-        error.biasSigma = std::sqrt(biasVariance) / mean_;
+    if (error.mean > 0.0) {
+        error.bias = bias / error.mean;
+        error.biasSigma = std::sqrt(biasVariance) / error.mean;
     }
     error.relMseSigma = std::sqrt(relMseVariance);
     return error;
 }
-
-}  // namespace
 
 double ErrorBlock::bias() const {
     return meanOf(mean) > 0.0 ? meanOf(difference) / meanOf(mean) : 0.0;
@@ -271,34 +251,31 @@ double ErrorBlock::biasSigma() const {
     return meanOf(mean) > 0.0 ? sigma / meanOf(mean) : 0.0;
 }
 
-glm::dvec3 PictureError::difference() const {
-    glm::dvec3 sum(0.0);
-    for (const ErrorBlock& block : blocks) sum += static_cast<double>(block.pixels) * block.difference;
-    return pixels > 0 ? sum / static_cast<double>(pixels) : sum;
-}
-
-std::optional<PictureError> measureError(const LayeredImage& picture, const scene::Scene& scene,
-                                         const std::vector<vdb::PlacedVolume>& volumes, const ErrorOrder& order,
-                                         const ErrorProgress& progress) {
+std::optional<ErrorProbes> ErrorProbes::trace(const LayeredImage& picture, const PixelPaths& paths,
+                                              const ErrorOrder& order, const ErrorProgress& progress) {
     const Clock::time_point start = Clock::now();
     const auto seconds = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
     std::vector<std::size_t> pixels = cloudPixels(picture, picture);
     if (pixels.empty()) return std::nullopt;
-    Meter meter(picture, scene, volumes, order.seed, std::move(pixels));
-    meter.draw(order.paths > 0 ? static_cast<double>(order.paths) : order.seconds / meter.secondsOfPath());
-    const double each = static_cast<double>(meter.pathsOfARound());
+    auto meter = std::make_shared<Meter>(picture, order.seed, std::move(pixels));
+    meter->draw(picture,
+                order.paths > 0 ? static_cast<double>(order.paths) : order.seconds / meter->secondsOfPath(paths));
+    const double each = static_cast<double>(meter->pathsOfARound());
     const double rounds = std::max(1.0, std::ceil(static_cast<double>(order.paths) / each));
     double took = 0.0;  // of the round before
     for (double done = 0.0; order.paths > 0 ? done < rounds : done == 0.0 || seconds() + took < order.seconds; ++done) {
         const double before = seconds();
-        meter.round([&](double part) {
+        meter->round(paths, [&](double part) {
             progress(order.paths > 0 ? (done + part) / rounds : std::min(1.0, seconds() / order.seconds));
         });
         took = seconds() - before;
     }
-    PictureError error = meter.result();
-    error.seconds = seconds();
-    return error;
+    meter->tookSeconds(seconds());
+    return ErrorProbes(std::move(meter));
+}
+
+PictureError ErrorProbes::errorOf(const LayeredImage& picture) const {
+    return meter_->errorOf(picture);
 }
 
 }  // namespace lumulus::reference

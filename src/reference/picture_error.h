@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "base/image.h"
-#include "scene/scene.h"
-#include "vdb/placed_volume.h"
+#include "reference/pixel_paths.h"
 
 namespace lumulus::reference {
 
@@ -47,28 +47,33 @@ struct PictureError {
     double seconds = 0.0;
     int edge = 0;                    ///< of the blocks, pixels: an eighth of the picture's height
     std::vector<ErrorBlock> blocks;  ///< that have counted pixels, row by row from the top
-
-    glm::dvec3 difference() const;  ///< mean of I − R over all counted pixels
 };
 
 /// Called between some thousand paths with the share of the work that is done, 0 to 1; what it throws ends the work.
 using ErrorProgress = std::function<void(double done)>;
 
-/// Measures the error of a picture of the scene by unbiased paths through 1024 to 8192 of its pixels, on all threads
-/// of TBB. `volumes` are those of the scene's clouds with all their values. Pixels are drawn more often where the
-/// picture is bright, since the noise of paths is there, and weighted for it; all of them have as many paths. The truth
-/// of a pixel is the mean over its area. Absent where no pixel shows a cloud or fog. Errors: those of AnyTracer.
-std::optional<PictureError> measureError(const LayeredImage& picture, const scene::Scene& scene,
-                                         const std::vector<vdb::PlacedVolume>& volumes, const ErrorOrder& order,
-                                         const ErrorProgress& progress);
+/// 1024 to 8192 pixels of a picture with the unbiased paths that were traced through them, by which the error is known
+/// of any picture of that scene that does not depend on these paths.
+class ErrorProbes {
+  public:
+    /// On all threads of TBB. Pixels are drawn more often where the picture is bright, since the noise of paths is
+    /// there, and weighted for it; all of them have as many paths. The truth of a pixel is the mean over its area.
+    /// Absent where no pixel shows a cloud or fog. `paths` has to outlive the call alone.
+    static std::optional<ErrorProbes> trace(const LayeredImage& picture, const PixelPaths& paths,
+                                            const ErrorOrder& order, const ErrorProgress& progress);
+
+    /// The error of that picture, or of another with the same layers of transmittance.
+    PictureError errorOf(const LayeredImage& picture) const;
+
+  private:
+    class Meter;
+    explicit ErrorProbes(std::shared_ptr<const Meter> meter) : meter_(std::move(meter)) {}
+
+    std::shared_ptr<const Meter> meter_;
+};
 
 /// Adds the layers error.bias and error.sigma: the mean difference of the pixel's block (mean of the channels), and its
 /// standard error, W·m⁻²·sr⁻¹; 0 where no pixel counts.
 void addErrorLayers(LayeredImage& picture, const PictureError& error);
-
-/// Takes the measured difference from R, G, B and cloud.R, .G, .B of the counted pixels: relative to the light of the
-/// cloud, smooth between the blocks, of each block as much as its noise lets trust. The mean over all counted pixels
-/// then has no bias, channel by channel.
-void correct(LayeredImage& picture, const PictureError& error);
 
 }  // namespace lumulus::reference

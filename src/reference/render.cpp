@@ -128,17 +128,12 @@ Renderer::Renderer(const scene::Scene& scene, const std::vector<vdb::PlacedVolum
       background_(scene.image.background),
       discCover_(camera_, scene.sun.refraction ? scene::apparentDirection(scene.sun) : tracer_.sun().direction(),
                  tracer_.sunny() ? tracer_.sun().radius() : 0.0),
+      lamps_(scene, camera_),
       seed_(seed),
       fingerprint_(
           fingerprintOf(groundedScene(scene, boundsOf(volumes)), volumes, camera_, tracer_.meshes(), majorant, seed)) {
     if (scatterings != allScatterings) fingerprint_ = Fingerprint().add(fingerprint_).add(scatterings).value();
     scene::requireEyeOutsideLamps(scene, camera_.position);
-    for (const scene::Lamp& lamp : scene.lamps) {
-        if (!lamp.shines() || camera_.projection == scene::Projection::orthographic) continue;
-        const glm::dvec3 way = lamp.position - camera_.position;
-        const double distance = glm::length(way);
-        lampCovers_.emplace_back(camera_, way / distance, std::asin(lamp.radius / distance));
-    }
     film_.width = scene.image.width;
     film_.height = scene.image.height;
     pass_.resize(static_cast<std::size_t>(film_.width) * static_cast<std::size_t>(film_.height));
@@ -167,13 +162,7 @@ Renderer::Sample Renderer::sample(int x, int y) const {
         result.sums.clear = line.clear;
         result.sums.distance = line.distance;
     }
-    if (lampCovers_.empty()) result.sums.scattered += path.lamps;
-    for (std::size_t lamp = 0; lamp < lampCovers_.size(); ++lamp) {
-        const DiscCover::Pixel* covered = lampCovers_[lamp].find(x, y);
-        if (covered == nullptr) continue;
-        const glm::dvec2 place = covered->sample(random);
-        result.sums.scattered += covered->share * tracer_.lampSeen(camera_.ray(place.x, place.y), lamp);
-    }
+    result.sums.scattered += lamps_.seen(tracer_, camera_, path, {x, y}, random);
     if (const DiscCover::Pixel* covered = discCover_.find(x, y)) {
         const glm::dvec2 place = covered->sample(random);
         const glm::dvec3 seen = tracer_.discSeen(camera_.ray(place.x, place.y));

@@ -6,6 +6,7 @@
 #include "reference/any_tracer.h"
 #include "reference/disc_cover.h"
 #include "reference/film.h"
+#include "reference/lamp_covers.h"
 #include "view/camera.h"
 
 namespace lumulus::reference {
@@ -52,7 +53,7 @@ class Renderer {
     glm::dvec3 skyUnit_, discUnit_;  ///< AnyTracer's
     bool background_;                ///< whether samples hold the sky and the sun's disc directly behind
     DiscCover discCover_;
-    std::vector<DiscCover> lampCovers_;  ///< of each lamp that shines; empty where lamps are met by chance alone
+    LampCovers lamps_;
     std::uint64_t seed_;
     std::uint64_t fingerprint_;
     Film film_;

@@ -340,12 +340,17 @@ PathSample BasicPathTracer<Light>::trace(const Ray& ray, Random& random) const {
     const int limit = haze_.hasFog() ? fogCollisionLimit : collisionLimit;
     for (int collisions = 0; collisions < limit; ++collisions) {
         if (step(path, found, branches, random)) continue;
-        if (branches.empty()) return sampleOf(found);
+        if (branches.empty()) {
+            PathSample sample = sampleOf(found);
+            sample.events = collisions + 1;
+            return sample;
+        }
         path = std::move(branches.back());
         branches.pop_back();
     }
     PathSample sample = sampleOf(found);
     sample.lost = true;
+    sample.events = limit;
     return sample;
 }
 

@@ -31,6 +31,7 @@ struct PathSample {
     glm::dvec3 passed{0.0};
     glm::dvec3 lamps{0.0};  ///< of lamps of the scene that the path met first, in place of `radiance`
     bool lost = false;      ///< ended by the limit of collisions
+    int events = 0;         ///< that it went through
 };
 
 /// What light is made of: three channels of a sky without air, or four wavelengths in the air of an atmosphere. There

@@ -13,6 +13,7 @@
 #include "light/light_field.h"
 #include "medium/phase_note.h"
 #include "render/importance.h"
+#include "render/inexact_light.h"
 #include "render/world_assets.h"
 #include "render/world_fog.h"
 #include "view/camera.h"
@@ -79,6 +80,7 @@ class Maker {
         world_.light.resize(world_.instances.size());
         if (options_.kept != nullptr) world_.fields = options_.kept->fields;
         prepareAssets(context_, scene_, volumes, pool, options_, world_, report_);
+        warnOfUnresolvedVoxels(world_, report_);
         findReachingLight(world_);
         lightUp();
         if (!volumes.clouds.empty()) report_.prepareSeconds = preparing.seconds();
@@ -158,33 +160,6 @@ class Maker {
     World world_;
     Before before_;
 };
-
-/// Light that goes to and fro along its line is not exact everywhere (docs/experiments/backward-peak.md).
-void warnOfBackwardPeaks(const scene::Scene& scene, WorldReport& report) {
-    constexpr double thick = 10.0;  // optical depths on average
-    for (std::size_t i = 0; i < scene.clouds.size(); ++i) {
-        const scene::Cloud& cloud = scene.clouds[i];
-        if (cloud.phase.model != scene::PhaseModel::henyeyGreenstein || !(cloud.phase.g < -0.5)) continue;
-        const auto isOther = [&](const scene::Cloud& other) {
-            return !(other.phase == cloud.phase) || other.albedo != cloud.albedo;
-        };
-        // light that goes to and fro along a ray is known in one medium (photon/sky_return.h)
-        if (scene.sky.model != scene::SkyModel::constant && std::ranges::any_of(scene.clouds, isOther)) {
-            report.warnings.push_back(
-                "clouds that scatter backwards (phase.g below -0.5), beside others of another phase function or "
-                "albedo, may be 20 % too dark or too bright under an atmosphere or a map; lumulus reference is exact");
-            return;
-        }
-        if (scene.sun.irradiance != glm::dvec3(0.0) && report.clouds[i].meanThickness > thick) {
-            report.warnings.push_back(fmt::format(
-                "cloud.{} scatters backwards (phase.g {:g}) and is thick: sunlight in it is some 10 % too "
-                "bright, and up to half where the sun stands behind it; render --correct takes the bias out, "
-                "lumulus reference is exact",
-                report.clouds[i].name, cloud.phase.g));
-            return;
-        }
-    }
-}
 
 CloudVolumes Maker::load() {
     CloudVolumes volumes = options_.read ? options_.read(scene_)

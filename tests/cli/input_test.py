@@ -67,7 +67,7 @@ class Input(CliTest):
         scene = self.vdb_scene(self.fixtures / "ball.vdb", "density_scale = 4\nphase.g = -0.8")  # optical thickness 32
         self.assertRegex(self.picture(scene)[2], r"^lumulus: warning: cloud\.0 scatters backwards \(phase\.g -0\.8\)")
         for calm in ("cloud.0.phase.g=-0.4", "cloud.0.extinction=0.2", "sun.irradiance=0"):
-            self.assertEqual(self.picture(scene, "--set", calm)[2], "", calm)
+            self.assertNotIn("backwards", self.picture(scene, "--set", calm)[2], calm)
 
     def test_negatives(self):
         _, _, said = self.picture(self.vdb_scene(self.fixtures / "small-negative.vdb"))

@@ -5,7 +5,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "reference/difference_filter.h"
 #include "reference/metrics.h"
+#include "reference/picture_correction.h"
 #include "reference/picture_error.h"
 #include "reference/render.h"
 #include "stat/ball.h"
@@ -47,7 +49,9 @@ const vdb::Volume& ball() {
 }
 
 PictureError errorOf(const LayeredImage& picture, const scene::Scene& scene, std::uint64_t seed, std::uint64_t paths) {
-    return measureError(picture, scene, {ball()}, {seed, 0.0, paths}, noProgress).value();
+    return ErrorProbes::trace(picture, PixelPaths(scene, {ball()}), {seed, 0.0, paths}, noProgress)
+        .value()
+        .errorOf(picture);
 }
 
 /// The picture whose cloud has light that is wrong by a factor for each column, before a background that is right.
@@ -148,34 +152,110 @@ TEST(PictureError, IsWithinItsBoundsAsOftenAsItSays) {
     EXPECT_NEAR(seen.mean(), bias, 4.0 * std::hypot(seen.standardError(), noiseOfTruth()));
 }
 
-dvec3 meanOf(const LayeredImage& picture) {
-    dvec3 sum(0.0);
-    const std::vector<std::size_t> pixels = cloudPixels(picture, picture);
-    for (const std::size_t i : pixels)
-        sum += dvec3(picture.layers.at("R")[i], picture.layers.at("G")[i], picture.layers.at("B")[i]);
-    return sum / static_cast<double>(pixels.size());
+Correction correctBy(LayeredImage& picture, std::uint64_t seed, std::uint64_t paths, std::uint64_t events = 0) {
+    return correct(picture, PixelPaths(sunnyScene(), {ball()}), {seed, 0.0, paths, events}, noProgress).value();
 }
 
 /// A cloud that is 20 % too bright on one side and 18 % too dark on the other.
-TEST(PictureError, CorrectionTakesMoreErrorThanItAdds) {
+TEST(PictureCorrection, TakesMoreErrorThanItAdds) {
     const LayeredImage wrong = withWrongCloud(truth(), [](int x) { return 1.2 - 0.02 * x; });
-    const PictureError error = errorOf(wrong, sunnyScene(), 3, 400'000);
-    LayeredImage better = wrong;
-    correct(better, error);
-    for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(meanOf(better)[c], meanOf(wrong)[c] - error.difference()[c], 1e-6) << "exact in the mean";
-    EXPECT_LT(compare(better, truth()).relMse.value, 0.35 * compare(wrong, truth()).relMse.value);
+    const double before = compare(wrong, truth()).relMse.value;
+    LayeredImage some = wrong, more = wrong;
+    const Correction told = correctBy(some, 3, 100'000);
+    EXPECT_EQ(told.pixels, cloudPixels(wrong, wrong).size());
+    EXPECT_GE(told.paths, 100'000U);
+    EXPECT_GT(told.events, told.paths);
+    EXPECT_EQ(told.lost, 0U);
+    correctBy(more, 3, 1'000'000);
+    EXPECT_LT(compare(some, truth()).relMse.value, 0.35 * before);
+    EXPECT_LT(compare(more, truth()).relMse.value, 0.15 * before);
+    const Comparison left = compare(more, truth());
+    EXPECT_NEAR(left.relativeBias.value, 0.0, 0.005) << "four standard errors of a million paths";
+    for (const std::string channel : {"R", "G", "B"})
+        for (std::size_t i = 0; i < wrong.pixels(); ++i)
+            ASSERT_NEAR(more.layers.at(channel)[i] - wrong.layers.at(channel)[i],
+                        more.layers.at("cloud." + channel)[i] - wrong.layers.at("cloud." + channel)[i], 1e-5);
 }
 
-/// Of a picture without an error few noisy paths are not taken for one.
-TEST(PictureError, CorrectionOfNothingIsNextToNothing) {
-    const PictureError error = errorOf(truth(), sunnyScene(), 4, 8000);
+/// One pixel in the middle is black: with many paths even that is found.
+TEST(PictureCorrection, FindsASinglePixel) {
+    constexpr std::size_t middle = 10 * 20 + 10;
+    LayeredImage picture = truth();
+    for (const std::string channel : {"R", "G", "B"}) {
+        picture.layers.at(channel)[middle] -= picture.layers.at("cloud." + channel)[middle];
+        picture.layers.at("cloud." + channel)[middle] = 0.0F;
+    }
+    correctBy(picture, 4, 1'000'000);
+    EXPECT_NEAR(picture.layers.at("R")[middle] / truth().layers.at("R")[middle], 1.0, 0.1);
+}
+
+/// Of a picture without an error few noisy paths are not taken for one: less is added than the paths' own noise.
+TEST(PictureCorrection, OfNothingIsNextToNothing) {
     LayeredImage same = truth();
-    correct(same, error);
-    double blocks = 0.0;  // what blocks taken as they are would add
-    for (const ErrorBlock& block : error.blocks)
-        blocks += std::pow(block.bias(), 2.0) * static_cast<double>(block.pixels) / static_cast<double>(error.pixels);
-    EXPECT_LT(compare(same, truth()).relMse.value, 0.2 * blocks + 4.0 * error.biasSigma * error.biasSigma);
+    const Correction told = correctBy(same, 5, 8000);
+    const PictureError error = errorOf(truth(), sunnyScene(), 5, told.paths);
+    const auto pixels = static_cast<double>(error.pixels);
+    const double noise = error.biasSigma * error.biasSigma * pixels;  // of a single pixel's paths
+    EXPECT_LT(compare(same, truth()).relMse.value, 0.1 * noise);
+}
+
+TEST(PictureCorrection, RepeatsToTheBitAndEndsWhereItHasTo) {
+    const LayeredImage wrong = scaled(truth(), 1.1);
+    LayeredImage a = wrong, b = wrong, c = wrong;
+    const Correction told = correctBy(a, 6, 20'000);
+    correctBy(b, 6, 20'000);
+    EXPECT_EQ(a.layers, b.layers);
+    const Correction few = correctBy(c, 6, 20'000, 100);
+    EXPECT_EQ(few.paths, 2 * few.pixels) << "one round has more events than that";
+    EXPECT_LT(few.paths, told.paths);
+    const auto stop = [](double) { throw std::runtime_error("stop"); };
+    const PixelPaths paths(sunnyScene(), {ball()});
+    EXPECT_THROW(correct(c, paths, {1, 1e9, 0, 0}, stop), std::runtime_error);
+    LayeredImage sky = truth();
+    for (const std::string channel : {"R", "G", "B"})
+        std::ranges::fill(sky.layers.at("transmittance." + channel), 1.0F);
+    EXPECT_FALSE(correct(sky, paths, {1, 0.0, 1000, 0}, noProgress).has_value());
+}
+
+/// A map of a difference of 0.1 in the left half and noise of a known variance everywhere.
+DifferenceMap halfWrong(float sigma) {
+    DifferenceMap map;
+    map.width = 64;
+    map.height = 48;
+    const std::size_t pixels = 64 * 48;
+    map.counted.assign(pixels, 1.0F);
+    map.light.assign(pixels, glm::vec3(1.0F));
+    map.variance.assign(pixels, sigma * sigma);
+    map.difference.resize(pixels);
+    Random random(7, 1, 0);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        double normal = -6.0;  // a sum of twelve
+        for (int k = 0; k < 12; ++k) normal += random.uniform();
+        map.difference[i] = glm::vec3((i % 64 < 32 ? 0.1F : 0.0F) + sigma * static_cast<float>(normal));
+    }
+    return map;
+}
+
+double errorOfFilter(float sigma) {
+    const std::vector<glm::vec3> found = filterDifference(halfWrong(sigma));
+    double square = 0.0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const double off = static_cast<double>(found[i].x) - (i % 64 < 32 ? 0.1 : 0.0);
+        square += off * off / static_cast<double>(found.size());
+    }
+    return square;
+}
+
+TEST(DifferenceFilter, KeepsAnEdgeAndTakesTheNoise) {
+    EXPECT_LT(errorOfFilter(0.0F), 1e-10) << "without noise it is the difference";
+    EXPECT_LT(errorOfFilter(0.01F), 1e-4) << "never worse than the noise";
+    EXPECT_LT(errorOfFilter(0.1F), 0.07 * 0.01) << "of a pixel's variance";
+    EXPECT_LT(errorOfFilter(1.0F), 0.3 * 0.01) << "of the variance of the difference: nothing but its mean is seen";
+    const DifferenceMap map = halfWrong(0.3F);
+    double in = 0.0, out = 0.0;
+    for (const glm::vec3& value : map.difference) in += static_cast<double>(value.y);
+    for (const glm::vec3& value : filterDifference(map)) out += static_cast<double>(value.y);
+    EXPECT_NEAR(out, in, 1e-3 * std::abs(in));
 }
 
 TEST(PictureError, RepeatsToTheBitAndHasLayers) {
@@ -202,12 +282,13 @@ TEST(PictureError, EndsWhereItHasTo) {
     LayeredImage sky = truth();
     for (const std::string channel : {"R", "G", "B"})
         std::ranges::fill(sky.layers.at("transmittance." + channel), 1.0F);
-    EXPECT_FALSE(measureError(sky, sunnyScene(), {ball()}, {1, 0.0, 1000}, noProgress).has_value());
+    const PixelPaths paths(sunnyScene(), {ball()});
+    EXPECT_FALSE(ErrorProbes::trace(sky, paths, {1, 0.0, 1000}, noProgress).has_value());
     const auto stop = [](double) { throw std::runtime_error("stop"); };
-    EXPECT_THROW(measureError(truth(), sunnyScene(), {ball()}, {1, 1e9, 0}, stop), std::runtime_error);
-    const auto timed = measureError(truth(), sunnyScene(), {ball()}, {1, 1e-6, 0}, noProgress);
-    EXPECT_EQ(timed->paths % 2, 0U);
-    EXPECT_LT(timed->paths, 2000U) << "one round, however short the time";
+    EXPECT_THROW(ErrorProbes::trace(truth(), paths, {1, 1e9, 0}, stop), std::runtime_error);
+    const auto timed = ErrorProbes::trace(truth(), paths, {1, 1e-6, 0}, noProgress).value().errorOf(truth());
+    EXPECT_EQ(timed.paths % 2, 0U);
+    EXPECT_LT(timed.paths, 2000U) << "one round, however short the time";
 }
 
 }  // namespace

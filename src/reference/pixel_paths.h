@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "reference/any_tracer.h"
+#include "reference/lamp_covers.h"
+#include "scene/scene.h"
+#include "vdb/placed_volume.h"
+#include "view/camera.h"
+
+namespace lumulus::reference {
+
+/// What a path says of a pixel.
+struct PixelSample {
+    glm::dvec3 radiance{0.0};  ///< W·m⁻²·sr⁻¹; its mean is what the picture should show, but for the sun's disc
+    bool lost = false;         ///< ended by the limit of scattering events
+    int events = 0;            ///< that the path went through, a measure of its work
+};
+
+/// Unbiased paths through the pixels of a picture of a scene. Immutable; any number of threads may trace.
+class PixelPaths {
+  public:
+    /// `volumes` are those of the scene's clouds with all their values, read here only. Errors: those of AnyTracer.
+    PixelPaths(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes);
+
+    /// A path through a random point of a pixel, counted row by row from the upper left corner.
+    PixelSample trace(std::size_t pixel, Random& random) const;
+
+    /// Whether paths meet fog or air, which makes them long.
+    bool hazy() const { return tracer_.hazy(); }
+
+  private:
+    Camera camera_;
+    AnyTracer tracer_;
+    glm::dvec3 skyUnit_;  ///< AnyTracer's; black where the background is left out
+    LampCovers lamps_;
+    std::size_t width_;
+};
+
+}  // namespace lumulus::reference
