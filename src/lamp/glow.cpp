@@ -85,18 +85,17 @@ Glow::Glow(const Camera& camera, const Around& around, std::span<const Beam> bea
     const DepthMap before(around.clouds, camera.position, inView, eyeMapEdge, check);
     std::vector<Kinds> sums(parts, all);
     const LightPaths light(around, beams, paths.count, paths.seed);
+    const Eye eye{camera.position, before, light.leastDistance(camera.position)};
     tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
         Kinds& own = sums[part];
         for (std::uint64_t i = part; i < paths.count; i += parts) {
             if (i / parts % 64 == 0) check();
-            light.trace(
-                i, {camera.position, before}, [&](const glm::dvec3& towards, const glm::dvec3& share, bool inCloud) {
-                    const std::optional<glm::dvec2> place = plane.placeOf(towards, margin_);
-                    if (!place) return;
-                    const glm::ivec2 cell =
-                        glm::min(glm::ivec2(*place + static_cast<double>(margin_)) / cell_, cells - 1);
-                    (inCloud ? own.clouds : own.open).add(static_cast<std::size_t>(cell.y * cells.x + cell.x), share);
-                });
+            light.trace(i, eye, [&](const glm::dvec3& towards, const glm::dvec3& share, bool inCloud) {
+                const std::optional<glm::dvec2> place = plane.placeOf(towards, margin_);
+                if (!place) return;
+                const glm::ivec2 cell = glm::min(glm::ivec2(*place + static_cast<double>(margin_)) / cell_, cells - 1);
+                (inCloud ? own.clouds : own.open).add(static_cast<std::size_t>(cell.y * cells.x + cell.x), share);
+            });
         }
     });
     for (const Kinds& own : sums) {

@@ -16,7 +16,7 @@ using std::numbers::pi;
 constexpr int mostEvents = 300, mostEventsInClouds = 1000;
 /// Share of its first weight below which a path goes on by chance.
 constexpr double thin = 0.05;
-/// Nearer to the eye than this share of the mean free path an event does not grow any more.
+/// LightPaths::leastDistance() over the mean free path, or over the way to a lamp.
 constexpr double nearShare = 0.03;
 constexpr double farAway = 1e6;  // metres
 
@@ -160,14 +160,20 @@ glm::dvec3 LightPaths::response(const Walk& walk, const glm::dvec3& direction) c
            glm::max(haze_.scattering(walk.ray.origin), glm::dvec3(1e-300));
 }
 
+double LightPaths::leastDistance(const glm::dvec3& eye) const {
+    const double extinction = sumOf(haze_.extinction(eye));
+    if (!(extinction > 0.0)) return 0.0;
+    double least = 3.0 / extinction;
+    for (const Beam& beam : beams_) least = std::min(least, glm::distance(eye, beam.position()));
+    return nearShare * least;
+}
+
 void LightPaths::show(const Walk& walk, const Eye& eye, const Seen& seen) const {
     const glm::dvec3 way = eye.position - walk.ray.origin;
     const double distance = glm::length(way);
     if (!(distance > 0.0)) return;
     const glm::dvec3 direction = way / distance;
-    const glm::dvec3 extinction = haze_.extinction(eye.position);
-    const double free = sumOf(extinction) > 0.0 ? 3.0 / sumOf(extinction) : 0.0;
-    const double least = nearShare * free, clear = eye.clouds.transmittance(-direction, distance);
+    const double least = eye.least, clear = eye.clouds.transmittance(-direction, distance);
     if (clear < 1e-6) return;
     const glm::dvec3 passed = glm::exp(-haze_.depth({eye.position, -direction}, distance));
     seen(-direction, clear * walk.weight * response(walk, direction) * passed / (distance * distance + least * least),

@@ -26,6 +26,7 @@ struct Around {
 struct Eye {
     glm::dvec3 position{0.0};
     const DepthMap& clouds;  ///< before it
+    double least = 0.0;      ///< LightPaths::leastDistance() of it
 };
 
 /// Paths of light from lamps through fog and clouds, over a ground. Each path is a function of its number.
@@ -36,6 +37,10 @@ class LightPaths {
     using Seen = std::function<void(const glm::dvec3& towards, const glm::dvec3& share, bool inCloud)>;
 
     LightPaths(const Around& around, std::span<const Beam> beams, std::uint64_t count, std::uint64_t seed);
+
+    /// Metres from an eye within which events do not grow any more by being nearer to it: a share of the mean free path
+    /// there, or of the way to the nearest lamp where the air is so clear that it is shorter.
+    double leastDistance(const glm::dvec3& eye) const;
 
     /// Follows a path, and tells of its events from the second on as `eye` sees them.
     void trace(std::uint64_t path, const Eye& eye, const Seen& seen) const;

@@ -10,12 +10,9 @@ namespace lumulus {
 
 namespace {
 
-/// Refuses lamps among what they do not light yet.
+/// Refuses lamps in endless fog.
 void requireDrawableLamps(const scene::Scene& scene) {
     if (std::ranges::none_of(scene.lamps, &scene::Lamp::shines)) return;
-    if (scene.sky.model == scene::SkyModel::atmosphere)
-        throw InputError("lamps are not drawn in the air of an atmosphere yet", scene.source + ", lamp",
-                         "write sky.model = \"constant\", or use lumulus reference");
     scene::requireBoundedFog(scene);
 }
 

@@ -8,6 +8,7 @@
 #include "base/stopwatch.h"
 #include "frame/background.h"
 #include "frame/view_params.h"
+#include "lamp/air.h"
 #include "lamp/lamp_picture.h"
 #include "light/photon/traced_sums.h"
 #include "render/changes.h"
@@ -200,9 +201,12 @@ void Renderer::State::addLamps(LayeredImage& picture, const Camera& seen, const 
     report("lamps", 0, 1);
     // as many as the photons of the map of sun and sky
     const std::int64_t paths = std::min<std::int64_t>(world->photonMap.photons / (view.coarse ? 16 : 1), 100'000'000);
+    const light::LightSet& lights = world->lights;
+    const sky::Atmosphere* air = lights.environment.atmosphere();
+    const scene::Fog haze = air != nullptr ? lamp::withAir(world->fog, air->air(), air->groundHeight()) : world->fog;
     lamp::addLamps(picture, seen, drawnTile(view),
-                   {lamps, world->fog, world->lights.ground, static_cast<int>(paths), world->photonMap.seed,
-                    cloudsForLamps(context, *world, check)},
+                   {lamps, haze, lights.planet ? lights.planet : lights.ground, static_cast<int>(paths),
+                    world->photonMap.seed, cloudsForLamps(context, *world, check)},
                    check);
     report("lamps", 1, 1);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/interrupt.h"
+#include "lamp/air.h"
 #include "lamp/lamp_picture.h"
 #include "medium/scattering_tables.h"
 #include "query/bricks.h"
@@ -95,8 +96,10 @@ struct Case {
         image.height = scene.image.height;
         for (const char* name : {"R", "G", "B"}) image.layer(name);
         const Camera camera = makeCamera(scene.camera, scene.image, {});
+        const bool air = scene.sky.model == scene::SkyModel::atmosphere;
+        const scene::Fog haze = air ? lamp::withAir(scene.fog, sky::airOf(scene.sky), scene.ground->height) : scene.fog;
         lamp::addLamps(image, camera, {0, 0, image.width, image.height},
-                       {scene.lamps, scene.fog, scene.ground, paths, 1, clouds()}, stopIfInterrupted);
+                       {scene.lamps, haze, scene.ground, paths, 1, clouds()}, stopIfInterrupted);
         return image;
     }
 
@@ -147,6 +150,15 @@ TEST(LampsAndClouds, ASearchlightBelowACloud) {
 /// Large pixels and a wider bound: few of the reference's paths meet what the fog scatters of the cloud's light.
 TEST(LampsAndClouds, ASearchlightInFogBelowACloud) {
     expectNear(all(ball(0.012) + fog + searchlight, 60'000, "width = 12\nheight = 8"), 5e-2);
+}
+
+/// At night, with light that the air takes and scatters, which few of the reference's paths meet.
+TEST(LampsAndClouds, ASearchlightBelowACloudInAnAtmosphere) {
+    std::string text = around;
+    text.replace(text.find("model = \"constant\"\nradiance = 0.0"), 33, "model = \"atmosphere\"");
+    text.replace(text.find("width"), text.find("[camera]") - text.find("width"), "width = 12\nheight = 8\n");
+    const Case one(text + ball(0.012) + searchlight);
+    expectNear(distanceOf(one.drawn(1'000'000), one.truth(20'000, reference::allScatterings)), 5e-2);
 }
 
 TEST(LampsAndClouds, ALampWithinAThinCloud) {

@@ -3,9 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "lamp/air.h"
 #include "lamp/beam.h"
 #include "lamp/haze.h"
 #include "lamp/once_scattered.h"
+#include "sky/atmosphere.h"
 
 // Light of lamps in fog against plain sums over many steps.
 namespace lumulus::lamp {
@@ -122,6 +124,30 @@ TEST(OnceScattered, IsThePlainSum) {
             }
         }
     }
+}
+
+/// Transmittance of the air for light of the sun's colour, against the atmosphere's own, at four wavelengths along a
+/// curved planet; and its scattering coefficient at the ground against the sums of its parts.
+TEST(LampAir, IsThatOfTheAtmosphere) {
+    scene::Sky sky;
+    sky.aerosolDepth = 0.2;
+    const sky::Air air = sky::airOf(sky);
+    const sky::Atmosphere atmosphere(air, 100.0, 0.53);
+    const dvec3 eye(10.0, 130.0, -20.0);
+    const Haze haze(withAir({}, air, 100.0), eye);
+    const dvec3 white = air.rgb(sky::Spectrum(1.0));
+    for (const dvec3& way : {dvec3(0.8, 0.0, -0.6), dvec3(0.0, 0.6, 0.8), dvec3(0.0, 1.0, 0.0)}) {
+        for (const double metres : {300.0, 3000.0, 15'000.0}) {
+            const sky::AirLight along = atmosphere.along(atmosphere.at(eye, way, {0.0, 1.0, 0.0}), metres, 200);
+            const dvec3 expected = air.rgb(along.transmittance) / white,
+                        found = glm::exp(-haze.depth({eye, way}, metres));
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(found[c] / expected[c], 1.0, 0.002 + 0.05 * (1.0 - expected[c])) << metres << " " << c;
+        }
+    }
+    const dvec3 ground(0.0, 100.0, 0.0), scattered = air.rgb(air.molecules + air.aerosolScattering) / white;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(haze.scattering(ground)[c], scattered[c], 1e-3 * scattered[c]);
+    EXPECT_EQ(haze.scattering({0.0, 99.0, 0.0}), dvec3(0.0)) << "below the ground";
 }
 
 }  // namespace
