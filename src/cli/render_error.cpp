@@ -7,6 +7,7 @@
 #include <functional>
 #include <glm/gtx/component_wise.hpp>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 
 #include "base/error.h"
@@ -95,6 +96,18 @@ double scatteringsOf(const scene::Scene& scene, std::span<const CloudSummary> cl
     return most;
 }
 
+/// Light of lamps that thick fog scatters often is too dark near them and too bright far from them (docs/lamps.md).
+bool hasLampsInFog(const scene::Scene& scene) {
+    constexpr double thick = 1.0;  // optical depth between a lamp and the eye
+    const double most = std::accumulate(
+        scene.fog.media.begin(), scene.fog.media.end(), 0.0,
+        [](double sum, const scene::FogMedium& medium) { return sum + glm::compMax(medium.scattering); });
+    const glm::dvec3 eye = scene.camera.position.value_or(glm::dvec3(0.0));
+    return std::ranges::any_of(scene.lamps, [&](const scene::Lamp& lamp) {
+        return lamp.shines() && most * glm::distance(lamp.position, eye) > thick;
+    });
+}
+
 }  // namespace
 
 ErrorOfPicture::ErrorOfPicture(const ErrorOptions& options, std::optional<scene::Quality> quality, Steps& steps)
@@ -125,7 +138,7 @@ ErrorOfPicture::Plan ErrorOfPicture::planOf(const LayeredImage& image, const sce
                                             std::span<const CloudSummary> clouds, bool timed) const {
     if (options_.correct) return {true, options_.paths.value_or(0), 0};
     if (options_.uncorrected || timed || quality_ == scene::Quality::draft ||
-        std::ranges::none_of(clouds, &CloudSummary::inexact))
+        !(std::ranges::any_of(clouds, &CloudSummary::inexact) || hasLampsInFog(scene)))
         return {};
     const bool best = quality_ == scene::Quality::final;
     const std::uint64_t least = (best ? 32 : 8) * image.pixels(), most = (best ? 1024 : 256) * image.pixels();

@@ -99,6 +99,7 @@ std::string statisticsJson(const Statistics& s, const std::optional<ProgressiveS
                                {"generations", s.generations},
                                {"preview_seconds", progressive->previewSeconds}};
     }
+    if (s.fogChangeBytes > 0) json["fog_change_bytes"] = s.fogChangeBytes;
     if (error != nullptr) error->addTo(json);
     // names of devices and files may hold bytes that are no UTF-8
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

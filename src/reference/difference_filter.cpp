@@ -127,7 +127,8 @@ class Filter {
         });
         const int around = std::max(2, radius);
         noise = smoothed(std::move(noise), size_, around);
-        energy = smoothed(std::move(energy), size_, around);
+        // as blurred as the variances are, lest a single bright path stand above the noise that it makes
+        energy = smoothed(smoothed(std::move(energy), size_, 2), size_, around);
         overPixels([&](std::size_t i) { kept_[i] += trust(noise[i], energy[i]) * (fine[i] - coarse_[i]); });
         coarse_ = std::move(fine);
     }

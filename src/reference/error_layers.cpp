@@ -1,7 +1,6 @@
 // The layers of a measured error.
 #include <vector>
 
-#include "reference/metrics.h"
 #include "reference/picture_error.h"
 
 namespace lumulus::reference {
@@ -30,9 +29,8 @@ void addErrorLayers(LayeredImage& picture, const PictureError& error) {
     const BlockGrid grid(picture, error.edge);
     std::vector<const ErrorBlock*> blocks(grid.size());
     for (const ErrorBlock& block : error.blocks) blocks[grid.indexOf(block.x, block.y)] = &block;
-    const std::vector<std::size_t> pixels = cloudPixels(picture, picture);
     std::vector<float>&bias = picture.layer("error.bias"), &sigma = picture.layer("error.sigma");
-    for (const std::size_t pixel : pixels) {
+    for (const std::size_t pixel : error.counted) {
         const auto at = static_cast<int>(pixel);
         const ErrorBlock* block = blocks[grid.indexOf(at % picture.width, at / picture.width)];
         bias[pixel] = static_cast<float>(meanOf(block->difference));

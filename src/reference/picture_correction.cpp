@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "reference/difference_filter.h"
-#include "reference/metrics.h"
 
 namespace lumulus::reference {
 namespace {
@@ -40,19 +39,18 @@ class Colours {
     std::array<std::vector<float>*, 3> layers_{};
 };
 
-/// Light of the cloud in a pixel, and where there is little, a share of the mean of all as far as the cloud is opaque:
-/// what the picture has of it may be wrong by any factor.
-std::vector<glm::vec3> lightOf(LayeredImage& picture, const std::vector<std::size_t>& pixels) {
+/// Light of the cloud in a pixel, with fog all of its light. Where there is little, a share of the mean of all pixels
+/// is added as far as the pixel is opaque: what the picture has of it may be wrong by any factor.
+std::vector<glm::vec3> lightOf(LayeredImage& picture, const std::vector<std::size_t>& pixels,
+                               const std::vector<float>& opacity, bool foggy) {
     constexpr float least = 0.3F;
-    const Colours cloud(picture, picture.layers.contains("cloud.R") ? "cloud." : "");
-    const Colours transmittance(picture, "transmittance.");
+    const Colours cloud(picture, !foggy && picture.layers.contains("cloud.R") ? "cloud." : "");
     glm::dvec3 sum(0.0);
     for (const std::size_t pixel : pixels) sum += glm::dvec3(glm::max(cloud[pixel], glm::vec3(0.0F)));
     const glm::vec3 mean = sum / static_cast<double>(std::max<std::size_t>(1, pixels.size()));
     std::vector<glm::vec3> light(picture.pixels(), glm::vec3(0.0F));
     for (const std::size_t pixel : pixels)
-        light[pixel] = glm::max(cloud[pixel], glm::vec3(0.0F)) +
-                       least * mean * glm::clamp(1.0F - transmittance[pixel], 0.0F, 1.0F);
+        light[pixel] = glm::max(cloud[pixel], glm::vec3(0.0F)) + least * opacity[pixel] * mean;
     return light;
 }
 
@@ -76,14 +74,14 @@ class Film {
         each_ += pathsOfRound;
     }
 
-    DifferenceMap mapOf(LayeredImage& picture) const {
+    DifferenceMap mapOf(LayeredImage& picture, const std::vector<float>& opacity) const {
         DifferenceMap map;
         map.width = picture.width;
         map.height = picture.height;
         map.counted.assign(picture.pixels(), 0.0F);
         map.variance = map.counted;
         map.difference.assign(picture.pixels(), glm::vec3(0.0F));
-        map.light = lightOf(picture, pixels_);
+        map.light = lightOf(picture, pixels_, opacity, paths_.foggy());
         const Colours shown(picture, "");
         const auto m = static_cast<double>(each_);
         for (std::size_t i = 0; i < pixels_.size(); ++i) {
@@ -157,11 +155,12 @@ std::optional<Correction> correct(LayeredImage& picture, const PixelPaths& paths
                                   const PathProgress& progress) {
     const Clock::time_point start = Clock::now();
     const auto seconds = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-    std::vector<std::size_t> pixels = cloudPixels(picture, picture);
+    const std::vector<float> opacity = paths.opacity(picture);
+    std::vector<std::size_t> pixels = countedPixels(opacity);
     if (pixels.empty()) return std::nullopt;
     Film film(paths, std::move(pixels), order.seed);
     trace(film, order, seconds, progress);
-    const std::vector<glm::vec3> more = filterDifference(film.mapOf(picture));
+    const std::vector<glm::vec3> more = filterDifference(film.mapOf(picture, opacity));
     for (const std::string prefix : {"", "cloud."}) {
         if (!picture.layers.contains(prefix + "R")) continue;
         Colours colours(picture, prefix);

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "reference/metrics.h"
 #include "reference/random.h"
 
 namespace lumulus::reference {
@@ -208,6 +207,7 @@ PictureError ErrorProbes::Meter::errorOf(const LayeredImage& picture) const {
     PictureError error;
     error.edge = edge_;
     error.pixels = pixels_.size();
+    error.counted = pixels_;
     error.paths = probes_.size() * paths_;
     error.seconds = seconds_;
     for (const std::size_t pixel : pixels_) error.mean += meanOf(colours[pixel]) / static_cast<double>(pixels_.size());
@@ -255,7 +255,7 @@ std::optional<ErrorProbes> ErrorProbes::trace(const LayeredImage& picture, const
                                               const ErrorOrder& order, const ErrorProgress& progress) {
     const Clock::time_point start = Clock::now();
     const auto seconds = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-    std::vector<std::size_t> pixels = cloudPixels(picture, picture);
+    std::vector<std::size_t> pixels = countedPixels(paths.opacity(picture));
     if (pixels.empty()) return std::nullopt;
     auto meter = std::make_shared<Meter>(picture, order.seed, std::move(pixels));
     meter->draw(picture,

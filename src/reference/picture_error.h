@@ -45,8 +45,9 @@ struct PictureError {
     double relMseSigma = 0.0;
     std::uint64_t paths = 0, lost = 0;  ///< lost ones met the limit of scattering events
     double seconds = 0.0;
-    int edge = 0;                    ///< of the blocks, pixels: an eighth of the picture's height
-    std::vector<ErrorBlock> blocks;  ///< that have counted pixels, row by row from the top
+    int edge = 0;                      ///< of the blocks, pixels: an eighth of the picture's height
+    std::vector<ErrorBlock> blocks;    ///< that have counted pixels, row by row from the top
+    std::vector<std::size_t> counted;  ///< the pixels
 };
 
 /// Called between some thousand paths with the share of the work that is done, 0 to 1; what it throws ends the work.

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "base/image.h"
 #include "reference/any_tracer.h"
 #include "reference/lamp_covers.h"
 #include "scene/scene.h"
@@ -29,6 +30,13 @@ class PixelPaths {
     /// A path through a random point of a pixel, counted row by row from the upper left corner.
     PixelSample trace(std::size_t pixel, Random& random) const;
 
+    /// How opaque clouds and fog are in each pixel of a picture, 0 to 1: by the picture's transmittance, which is that
+    /// of clouds alone, and in a scene with fog as a ray through the pixel's middle finds it. 0 where the sun's disc is
+    /// seen.
+    std::vector<float> opacity(const LayeredImage& picture) const;
+
+    /// Whether the scene has fog, whose light is in `R`, `G` and `B` alone.
+    bool foggy() const { return fog_; }
     /// Whether paths meet fog or air, which makes them long.
     bool hazy() const { return tracer_.hazy(); }
 
@@ -37,7 +45,11 @@ class PixelPaths {
     AnyTracer tracer_;
     glm::dvec3 skyUnit_;  ///< AnyTracer's; black where the background is left out
     LampCovers lamps_;
+    bool fog_;
     std::size_t width_;
 };
+
+/// The pixels in which clouds and fog are counted: with an opacity above 0.001.
+std::vector<std::size_t> countedPixels(const std::vector<float>& opacity);
 
 }  // namespace lumulus::reference

@@ -38,10 +38,12 @@ void warnOfBackwardPeaks(const scene::Scene& scene, WorldReport& report) {
 
 void warnOfUnresolvedVoxels(const World& world, WorldReport& report) {
     constexpr double unresolved = 2.0;  // transport optical depths of a voxel
+    constexpr double noticeable = 1.0;  // optical depths on average
     bool warned = false;
     for (std::size_t i = 0; i < world.instances.size() && i < report.clouds.size(); ++i) {
         const cloud::Instance& instance = world.instances[i];
         if (instance.asset == nullptr) continue;
+        if (instance.isFlat() && report.clouds[i].meanThickness > noticeable) report.clouds[i].inexact = true;
         const double depth = reducedExtinction(instance.medium, world.photonMap.bands) * instance.voxelEdge();
         if (!(depth >= unresolved)) continue;
         report.clouds[i].inexact = true;

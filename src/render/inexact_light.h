@@ -10,7 +10,8 @@ namespace lumulus {
 /// Light that goes to and fro along its line is not exact everywhere (docs/experiments/backward-peak.md).
 void warnOfBackwardPeaks(const scene::Scene& scene, WorldReport& report);
 
-/// Neither is light at the surface of clouds that it enters by less than half a voxel (docs/stability.md).
+/// Neither is light at the surface of clouds that it enters by less than half a voxel (docs/stability.md); and that of
+/// clouds with flat voxels is off by one or two per cent (docs/experiments/flat-voxels.md), of which nobody is warned.
 void warnOfUnresolvedVoxels(const World& world, WorldReport& report);
 
 }  // namespace lumulus

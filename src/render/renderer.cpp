@@ -261,6 +261,7 @@ LayeredImage Renderer::draw(const View& view, ViewState& viewState) {
     s.work.times = ofPictureAround;
     s.statistics.gpuBytes = s.context.memory().used;
     s.statistics.gpuBytesHeld = s.context.memory().held;
+    s.statistics.fogChangeBytes = s.fogChange ? s.fogChange->bytes() : 0;
     s.statistics.drawSeconds += watch.seconds();
     return image;
 }

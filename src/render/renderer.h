@@ -67,6 +67,7 @@ struct Statistics {
     std::uint64_t collectors = 0;
     std::uint64_t gpuBytes = 0;        ///< of buffers and images
     std::uint64_t gpuBytesHeld = 0;    ///< allocated from the driver for them
+    std::uint64_t fogChangeBytes = 0;  ///< on the host, of what clouds change in fog
     std::vector<CloudSummary> clouds;  ///< of the scene, in its order
     std::vector<AssetSummary> assets;  ///< that were prepared for them
     std::vector<PassTime> passes;      ///< sums over all generations, in the order of the frame

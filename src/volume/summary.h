@@ -33,7 +33,7 @@ struct CloudSummary {
     double largestThickness = 0.0;            ///< optical thickness, the largest along the axes of the grid …
     double meanThickness = 0.0;               ///< … and its mean over the columns of voxels that meet the cloud
     std::optional<BrickSummary> bricks = {};  ///< absent where the field is dense
-    bool inexact = false;  ///< photon maps make its light wrong by some percent or more; a warning says so
+    bool inexact = false;  ///< photon maps make its light wrong by one percent or more; of much a warning tells
 };
 
 /// What was prepared of one density field at one level of detail, and for how many clouds of the scene.

@@ -161,16 +161,16 @@ TEST(PictureCorrection, TakesMoreErrorThanItAdds) {
     const LayeredImage wrong = withWrongCloud(truth(), [](int x) { return 1.2 - 0.02 * x; });
     const double before = compare(wrong, truth()).relMse.value;
     LayeredImage some = wrong, more = wrong;
-    const Correction told = correctBy(some, 3, 100'000);
+    const Correction told = correctBy(some, 3, 60'000);
     EXPECT_EQ(told.pixels, cloudPixels(wrong, wrong).size());
-    EXPECT_GE(told.paths, 100'000U);
+    EXPECT_GE(told.paths, 60'000U);
     EXPECT_GT(told.events, told.paths);
     EXPECT_EQ(told.lost, 0U);
-    correctBy(more, 3, 1'000'000);
+    correctBy(more, 3, 400'000);
     EXPECT_LT(compare(some, truth()).relMse.value, 0.35 * before);
-    EXPECT_LT(compare(more, truth()).relMse.value, 0.15 * before);
+    EXPECT_LT(compare(more, truth()).relMse.value, 0.2 * before);
     const Comparison left = compare(more, truth());
-    EXPECT_NEAR(left.relativeBias.value, 0.0, 0.005) << "four standard errors of a million paths";
+    EXPECT_NEAR(left.relativeBias.value, 0.0, 0.008) << "four standard errors of 400,000 paths";
     for (const std::string channel : {"R", "G", "B"})
         for (std::size_t i = 0; i < wrong.pixels(); ++i)
             ASSERT_NEAR(more.layers.at(channel)[i] - wrong.layers.at(channel)[i],
@@ -185,8 +185,8 @@ TEST(PictureCorrection, FindsASinglePixel) {
         picture.layers.at(channel)[middle] -= picture.layers.at("cloud." + channel)[middle];
         picture.layers.at("cloud." + channel)[middle] = 0.0F;
     }
-    correctBy(picture, 4, 1'000'000);
-    EXPECT_NEAR(picture.layers.at("R")[middle] / truth().layers.at("R")[middle], 1.0, 0.1);
+    correctBy(picture, 4, 400'000);
+    EXPECT_NEAR(picture.layers.at("R")[middle] / truth().layers.at("R")[middle], 1.0, 0.15);
 }
 
 /// Of a picture without an error few noisy paths are not taken for one: less is added than the paths' own noise.

@@ -32,7 +32,8 @@ CLOUDS = {"ball": ("sphere", 20.0 / 3.0, 100.0, 500.0), "cumulus": ("cumulus", 1
 
 def add_options(parser):
     add_common_options(parser)
-    parser.add_argument("--spp", type=int, default=1000, help="of each reference, at a free path of a voxel (default 1000)")
+    parser.add_argument("--spp", type=int, default=1000, help="of each reference (default %(default)s)")
+    parser.add_argument("--clouds", default=",".join(CLOUDS), help="of these (default %(default)s)")
     parser.add_argument("--albedo", type=float, default=0.9)
     parser.add_argument("--g", type=float, default=0.0)
     parser.add_argument("--paths", default="10,3,1,0.3,0.1,0.03,0.01", help="mean free paths in voxels")
@@ -43,6 +44,8 @@ def main(options):
     lumulus = Lumulus.of(options, [])
     table = Table(["cloud", "free path, voxels", "sun", "quality", "relMSE", "bias", "seconds"])
     for name, (kind, edge, middle, distance) in CLOUDS.items():
+        if name not in options.clouds.split(","):
+            continue
         for free_path in map(float, options.paths.split(",")):
             for light, azimuth in LIGHTS.items():
                 label = f"{name}-{free_path:g}-{light}"
