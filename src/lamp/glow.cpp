@@ -83,6 +83,12 @@ Glow::Glow(const Camera& camera, const Around& around, std::span<const Beam> bea
     Kinds all{Level(cells), Level(ofClouds)};
     const Cone inView = coneToClouds(around.clouds, camera.position, {camera.axes[2], std::numbers::pi});
     const DepthMap before(around.clouds, camera.position, inView, eyeMapEdge, check);
+    DepthMap solids;
+    if (around.solids != nullptr)
+        solids = DepthMap(*around.solids, camera.position,
+                          coneToSphere(around.solids->middle, around.solids->radius, camera.position,
+                                       {camera.axes[2], std::numbers::pi}),
+                          2 * eyeMapEdge, check);
     std::vector<Kinds> sums(parts, all);
     const LightPaths light(around, beams, paths.count, paths.seed);
     tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
@@ -90,7 +96,8 @@ Glow::Glow(const Camera& camera, const Around& around, std::span<const Beam> bea
         for (std::uint64_t i = part; i < paths.count; i += parts) {
             if (i / parts % 64 == 0) check();
             light.trace(
-                i, {camera.position, before}, [&](const glm::dvec3& towards, const glm::dvec3& share, bool inCloud) {
+                i, {camera.position, before, solids},
+                [&](const glm::dvec3& towards, const glm::dvec3& share, bool inCloud) {
                     const std::optional<glm::dvec2> place = plane.placeOf(towards, margin_);
                     if (!place) return;
                     const glm::ivec2 cell =

@@ -225,6 +225,7 @@ CloudVolumes Maker::load() {
 
 /// What of the light is made beforehand.
 void Maker::lightUp() {
+    world_.meshes = !scene_.meshes.empty();
     const std::vector<std::size_t> visible = world_.visible();
     if (visible.size() > 1) {
         std::vector<const cloud::Instance*> instances;
@@ -341,7 +342,7 @@ std::vector<std::size_t> World::visible() const {
 const scene::Ground* World::shadedGround() const {
     if (lights.ground) return &*lights.ground;
     const bool dense = std::ranges::none_of(assets, [](const auto& asset) { return asset->isSparse(); });
-    return lights.planet && dense && !assets.empty() ? &*lights.planet : nullptr;
+    return lights.planet && dense && (meshes || !assets.empty()) ? &*lights.planet : nullptr;
 }
 
 bool World::hasShadows() const {

@@ -46,6 +46,7 @@ struct World {
     /// Where several instances are lit by the sun: shadow volumes with what stands before them.
     std::optional<light::SharedShadow> sharedShadow{};
     Bounds bounds{};               ///< of all instances, without their offsets
+    bool meshes = false;           ///< stand in it, and throw shadows on the ground
     bool levelsOfDetail = false;   ///< whether instances have voxels chosen by their size in the picture
     scene::PhotonMap photonMap{};  ///< that is asked for: the scene's, but where voxels are flat
     glm::dvec3 wind{0.0};          ///< velocity with which all instances drift [m/s]
@@ -55,8 +56,8 @@ struct World {
     std::vector<std::size_t> visible() const;
     bool hasPhotons() const { return photons.has_value(); }
     bool hasShadows() const;
-    /// The ground on which clouds throw shadows: the scene's, or the planet's, where densities can be read back of all
-    /// clouds; else null.
+    /// The ground on which clouds and meshes throw shadows: the scene's, or the planet's, where densities can be read
+    /// back of all clouds; else null.
     const scene::Ground* shadedGround() const;
 };
 

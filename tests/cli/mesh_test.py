@@ -24,6 +24,14 @@ gltf = "{name}.glb"
 position = [{x}, 100, 0]
 scale = {scale}
 """
+FOG = """
+[[fog.media]]
+scattering = [0.0019, 0.0019, 0.0019]
+absorption = [0.0001, 0.0001, 0.0001]
+g = 0.6
+top = 400
+bottom = 0
+"""
 CLOUD = """
 [[cloud]]
 procedural = "sphere"
@@ -93,6 +101,40 @@ class Pictures(MeshTest):
         depth = drawn["depth.Z"] - truth["depth.Z"]
         self.assertLess(float(numpy.median(numpy.abs(depth[within]))), 0.05)
 
+    def agrees(self, text, photons, samples, bias, error):
+        """Whether pictures of render and reference agree; those of render."""
+        size = ["--set", "image.width=64", "--set", "image.height=36"]
+        drawn = self.layers("render", text, *size, "--set", f"photon_map.photons={photons}")
+        truths = [
+            self.layers("reference", text, *size, "--spp", samples, "--set", f"photon_map.seed={seed}", name="b.exr")
+            for seed in (1, 2)
+        ]
+        for channel in "RGB":
+            a, b, c = (layers[channel] for layers in (drawn, *truths))
+            mean = (b + c) / 2
+            self.assertLess(abs(numpy.sum(a) / numpy.sum(mean) - 1), bias, channel)
+            self.assertLess(numpy.mean((a - b) * (a - c) / (mean**2 + 1e-4)), error, channel)
+        return drawn
+
+    def test_a_tower_throws_its_shadow_on_the_ground(self):
+        subprocess.run([MESHES, "tower", "-o", self.folder / "tower.glb"], check=True)
+        text = SCENE.format(away=260, sky=[0.11, 0.20, 0.38], sun=[5.0, 4.6, 3.9], elevation=35)
+        text = text.replace("[0, 100, 260], target = [0, 100, 0]", "[60, 90, 200], target = [0, 20, 0]")
+        text += "ground = { height = 0, albedo = [0.3, 0.3, 0.3] }\n"
+        text += BALL.format(name="tower", x=0, scale=1).replace("100", "0")
+        drawn = self.agrees(text, 1000, "256", 0.003, 3e-3)
+        shaded = drawn["G"][drawn["mesh.id"] == 0]
+        self.assertLess(numpy.min(shaded), 0.5 * numpy.median(shaded))
+
+    def test_a_tower_in_fog_with_a_lamp(self):
+        subprocess.run([MESHES, "tower", "-o", self.folder / "tower.glb"], check=True)
+        text = SCENE.format(away=260, sky=[0, 0, 0], sun=[0, 0, 0], elevation=35)
+        text = text.replace("[0, 100, 260], target = [0, 100, 0]", "[150, 60, 260], target = [0, 55, 0]")
+        text += "ground = { height = 0, albedo = [0.3, 0.3, 0.3] }\n" + FOG
+        text += BALL.format(name="tower", x=0, scale=1).replace("100", "0")
+        text += "[[lamp]]\npower = [20000, 18000, 14000]\nposition = [40, 60, 60]\nradius = 0.5\n"
+        self.agrees(text, 400000, "512", 0.02, 1e-2)
+
     def test_a_mesh_ends_the_clouds_behind_it(self):
         """A large ball in front of a cloud shows the same as without the cloud, but for the cloud's light; one behind it
         is hidden."""
@@ -135,7 +177,6 @@ class Refusals(MeshTest):
         self.refused(text + BALL.format(name="other", x=0, scale=1), "other.glb does not exist")
         self.refused(text + ball + 'name = "a b"\n', "cannot be the name of a mesh")
         self.refused(text + ball, "billboards are not drawn among meshes", "--set", "draw.mode=billboards")
-        self.refused(text + ball + "[[lamp]]\npower = [1, 1, 1]\nposition = [0, 200, 0]\n", "lamps do not light meshes")
         (self.folder / "grey.glb").write_bytes(b"glTF and nothing else")
         self.refused(text + ball, "it is no glTF 2.0")
         self.refused(text + ball, "it is no glTF 2.0", "--spp", "1", command="reference")
