@@ -52,6 +52,30 @@ View MeshView::surroundings(const World& world) const {
     return view;
 }
 
+void MeshView::setSun(gpu::Context& context, const World& world, const Check& check) {
+    const scene::Sun& sun = world.lights.direct();
+    const bool needed = world.lights.hasSun() && (world.fogLight || world.hasShadows());
+    if (!needed || (sunMap_ && sunMap_->toSun() == sun.directionTo)) return;
+    sunMap_.reset();
+    sunMap_.emplace(context, scene_, sun.directionTo, check);
+}
+
+void MeshView::addTo(fog::ShadowCasters& casters, const glm::dvec3& eye) const {
+    if (!sunMap_) return;
+    casters.meshes = &sunMap_->image();
+    for (const glm::vec4& row : sunMap_->boxFrom(eye)) casters.texels.push_back(row);
+    for (const glm::vec4& row : sunMap_->rowsFrom(eye)) casters.texels.push_back(row);
+    for (int i = 0; i < 3; ++i) casters.texels.emplace_back(0.0F);
+}
+
+void MeshView::shade(gpu::Commands& commands, const cloud::Instance& instance, const light::ShadowGrid& grid,
+                     const gpu::Image& volume, const glm::ivec3& origin) const {
+    if (!sunMap_) return;
+    glm::dmat4 texelToWorld(instance.voxelToMetres * grid.gridToVoxel);
+    texelToWorld[3] = glm::dvec4(instance.voxelToMetres * grid.originVoxel + instance.origin + instance.offset, 1.0);
+    sunMap_->shade(commands, volume, origin, grid.size, texelToWorld);
+}
+
 void MeshView::setLight(gpu::Context& context, World& world, const LayeredImage& seen,
                         const std::vector<scene::Lamp>& lamps, const Check& check) {
     const prefilter::Panorama around =

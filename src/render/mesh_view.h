@@ -2,11 +2,13 @@
 
 #include <optional>
 
+#include "fog/lit/lit_fog.h"
 #include "frame/frame.h"
 #include "render/gpu_work.h"
 #include "render/world.h"
 #include "surface/mesh/ground_shade.h"
 #include "surface/mesh/mesh_picture.h"
+#include "surface/mesh/sun_map.h"
 #include "view/view.h"
 
 namespace lumulus {
@@ -19,6 +21,12 @@ class MeshView {
 
     /// What surrounds the meshes: a panorama from their middle, but above a ground.
     View surroundings(const World& world) const;
+    /// Sets the sun that they stand before, as clouds and fog have their shadows of it. Errors: what `check` throws.
+    void setSun(gpu::Context& context, const World& world, const Check& check);
+    /// After setSun(): adds them to what throws shadows into fog; as World::meshShade has it.
+    void addTo(fog::ShadowCasters& casters, const glm::dvec3& eye) const;
+    void shade(gpu::Commands& commands, const cloud::Instance& instance, const light::ShadowGrid& grid,
+               const gpu::Image& volume, const glm::ivec3& origin) const;
     /// Sets the light that they stand in. `seen`: the picture of surroundings(), without meshes; `lamps`: that shine.
     /// Errors: what `check` throws.
     void setLight(gpu::Context& context, World& world, const LayeredImage& seen, const std::vector<scene::Lamp>& lamps,
@@ -36,6 +44,7 @@ class MeshView {
     surface::MeshScene scene_;
     lamp::Solids solids_;
     surface::RayTracer tracer_;
+    std::optional<surface::SunMap> sunMap_;
     std::optional<surface::MeshLight> light_;
     std::optional<surface::MeshShading> shading_;
 };

@@ -87,9 +87,10 @@ void Renderer::State::makePainters(const scene::Scene& scene) {
     statistics.device = context.device().name;
     if (!scene.fog.media.empty()) fog.emplace(context, world->fog, check);
     if (world->fogLight)
-        litFog.emplace(context, fog::LitFog::Has{world->hasShadows(), world->sharedShadow.has_value(),
-                                                 world->lights.ground || world->airOverFog,
-                                                 world->airOverFog != nullptr, changesFog(*world)});
+        litFog.emplace(context,
+                       fog::LitFog::Has{world->hasShadows() || (world->meshes && world->lights.hasSun()),
+                                        world->sharedShadow.has_value(), world->lights.ground || world->airOverFog,
+                                        world->airOverFog != nullptr, changesFog(*world)});
     if (changesFog(*world)) fogChange.emplace(context, *world, check);
     if (world->shadedGround() != nullptr) ground.emplace(keepRing);
     for (const auto& asset : world->assets) statistics.collectors += asset->collectors.size();

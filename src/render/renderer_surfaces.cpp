@@ -8,6 +8,9 @@ namespace lumulus {
 
 void Renderer::State::setMeshes(const scene::Scene& scene) {
     meshes.emplace(context, scene, check);
+    world->meshShade = [this](gpu::Commands& commands, const cloud::Instance& instance, const light::ShadowGrid& grid,
+                              const gpu::Image& volume,
+                              const glm::ivec3& origin) { meshes->shade(commands, instance, grid, volume, origin); };
     if (ground)
         ground->setMeshes([this](const scene::Ground& on, const scene::Sun& sun, const glm::dvec3& sky) {
             return meshes->shadeOn(on, sun, sky);
@@ -31,6 +34,7 @@ void Renderer::State::addLamps(LayeredImage& picture, const Camera& seen, const 
 
 void Renderer::State::lightMeshes(PictureOrder& order) {
     report("light on meshes", 0, 1);
+    meshes->setSun(context, *world, check);
     const View around = meshes->surroundings(*world);
     ViewState from;
     show(from.state(), around);
