@@ -32,6 +32,13 @@ g = 0.6
 top = 400
 bottom = 0
 """
+THIN = """
+[[cloud]]
+procedural = "sphere"
+resolution = 32
+extinction = 2e-3
+transform = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]
+"""
 CLOUD = """
 [[cloud]]
 procedural = "sphere"
@@ -125,6 +132,30 @@ class Pictures(MeshTest):
         drawn = self.agrees(text, 1000, "256", 0.003, 3e-3)
         shaded = drawn["G"][drawn["mesh.id"] == 0]
         self.assertLess(numpy.min(shaded), 0.5 * numpy.median(shaded))
+
+    def test_a_ball_throws_its_shadow_into_fog(self):
+        self.ball("grey", radius=40)
+        text = SCENE.format(away=300, sky=[0.05, 0.05, 0.05], sun=[5.0, 4.6, 3.9], elevation=60)
+        text = text.replace("[0, 100, 300], target = [0, 100, 0]", "[0, 60, 300], target = [0, 60, 0]")
+        text = text.replace("azimuth = 120", "azimuth = 90").replace("fov = 30", "fov = 40")
+        text += "ground = { height = 0, albedo = [0.3, 0.3, 0.3] }\n" + FOG.replace("400", "120")
+        text += BALL.format(name="grey", x=60, scale=1).replace("100", "180")
+        self.agrees(text, 1000, "512", 0.012, 1e-3)
+
+    def test_a_ball_throws_its_shadow_on_a_thin_cloud(self):
+        """Most of the middle of a cloud that scatters light about once lies in the shadow of a ball out of view."""
+        self.ball("grey", radius=40)
+        text = SCENE.format(away=250, sky=[0, 0, 0], sun=[5, 5, 5], elevation=60).replace("azimuth = 120", "azimuth = 90")
+        text = text.replace("[0, 100, 250], target = [0, 100, 0]", "[0, 110, 250], target = [0, 110, 0]") + THIN
+        shade = BALL.format(name="grey", x=120, scale=2).replace("100, 0]", "308, 0]")
+        seen = {
+            "lit": self.layers("render", text),
+            "shaded": self.layers("render", text + shade),
+            "truth": self.layers("reference", text + shade, "--spp", "4096", name="b.exr"),
+        }
+        inside = {name: layers["G"].reshape(24, 32)[4:20, 13:19].sum() for name, layers in seen.items()}
+        self.assertLess(inside["shaded"], 0.7 * inside["lit"])
+        self.assertLess(abs(inside["shaded"] / inside["truth"] - 1), 0.15)
 
     def test_a_tower_in_fog_with_a_lamp(self):
         subprocess.run([MESHES, "tower", "-o", self.folder / "tower.glb"], check=True)
