@@ -54,10 +54,18 @@ View MeshView::surroundings(const World& world) const {
 
 void MeshView::setSun(gpu::Context& context, const World& world, const Check& check) {
     const scene::Sun& sun = world.lights.direct();
-    const bool needed = world.lights.hasSun() && (world.fogLight || world.hasShadows());
+    const bool needed = world.lights.hasSun() && (world.fogLight || world.hasShadows() || world.photons);
     if (!needed || (sunMap_ && sunMap_->toSun() == sun.directionTo)) return;
     sunMap_.reset();
     sunMap_.emplace(context, scene_, sun.directionTo, check);
+}
+
+const gpu::Buffer& MeshView::forPhotons(gpu::Context& context, const World& world, const glm::dmat3& cells,
+                                        const glm::dvec3& corner) {
+    setSun(context, world, stopIfInterrupted);
+    forPhotons_.reset();
+    forPhotons_.emplace(sunMap_->forPhotons(context, cells, corner));
+    return *forPhotons_;
 }
 
 void MeshView::addTo(fog::ShadowCasters& casters, const glm::dvec3& eye) const {

@@ -27,6 +27,9 @@ class MeshView {
     void addTo(fog::ShadowCasters& casters, const glm::dvec3& eye) const;
     void shade(gpu::Commands& commands, const cloud::Instance& instance, const light::ShadowGrid& grid,
                const gpu::Image& volume, const glm::ivec3& origin) const;
+    /// As World::meshHeights has it; sets the sun too. Errors: Error where interrupted.
+    const gpu::Buffer& forPhotons(gpu::Context& context, const World& world, const glm::dmat3& cells,
+                                  const glm::dvec3& corner);
     /// Sets the light that they stand in. `seen`: the picture of surroundings(), without meshes; `lamps`: that shine.
     /// Errors: what `check` throws.
     void setLight(gpu::Context& context, World& world, const LayeredImage& seen, const std::vector<scene::Lamp>& lamps,
@@ -45,6 +48,7 @@ class MeshView {
     lamp::Solids solids_;
     surface::RayTracer tracer_;
     std::optional<surface::SunMap> sunMap_;
+    std::optional<gpu::Buffer> forPhotons_;
     std::optional<surface::MeshLight> light_;
     std::optional<surface::MeshShading> shading_;
 };

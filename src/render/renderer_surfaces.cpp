@@ -11,6 +11,9 @@ void Renderer::State::setMeshes(const scene::Scene& scene) {
     world->meshShade = [this](gpu::Commands& commands, const cloud::Instance& instance, const light::ShadowGrid& grid,
                               const gpu::Image& volume,
                               const glm::ivec3& origin) { meshes->shade(commands, instance, grid, volume, origin); };
+    world->meshHeights = [this](const glm::dmat3& cells, const glm::dvec3& corner) -> const gpu::Buffer& {
+        return meshes->forPhotons(context, *world, cells, corner);
+    };
     if (ground)
         ground->setMeshes([this](const scene::Ground& on, const scene::Sun& sun, const glm::dvec3& sky) {
             return meshes->shadeOn(on, sun, sky);

@@ -71,10 +71,12 @@ void shareShadows(GpuWork& work, World& world) {
     if (world.sharedShadow->isUpToDate(all)) return;
     work.run([&](gpu::Commands& commands) {
         world.sharedShadow->record(commands, all, -world.lights.direct().directionTo);
-        for (std::size_t place = 0; world.meshShade && place < all.size(); ++place)
-            if (all[place].shadow != nullptr)
-                world.meshShade(commands, *all[place].instance, all[place].shadow->grid(), world.sharedShadow->image(),
-                                world.sharedShadow->origin(place));
+        for (std::size_t place = 0; world.meshShade && place < all.size(); ++place) {
+            if (all[place].shadow == nullptr) continue;
+            world.meshShade(commands, *all[place].instance, all[place].shadow->grid(), world.sharedShadow->image(),
+                            world.sharedShadow->origin(place));
+            commands.barrier("mesh shadow");
+        }
     });
 }
 

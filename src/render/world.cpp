@@ -269,6 +269,7 @@ photon::Options Maker::photonOptions() const {
     options.seed = wanted.seed;
     options.keepRing = options_.keepRing;
     options.ground = world_.shadedGround() != nullptr;
+    options.meshes = world_.meshes && world_.lights.hasSun();
     options.splitGenerations = options_.progressive;
     options.check = options_.check;
     const std::optional<photon::AirLight>& air = world_.air ? world_.air : world_.light[world_.visible().front()].air;

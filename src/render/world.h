@@ -51,6 +51,8 @@ struct World {
     std::function<void(gpu::Commands&, const cloud::Instance&, const light::ShadowGrid&, const gpu::Image&,
                        const glm::ivec3& origin)>
         meshShade{};
+    /// The same for photons, whose cells have these edges and begin at a corner [m]; empty without.
+    std::function<const gpu::Buffer&(const glm::dmat3& cells, const glm::dvec3& corner)> meshHeights{};
     bool levelsOfDetail = false;   ///< whether instances have voxels chosen by their size in the picture
     scene::PhotonMap photonMap{};  ///< that is asked for: the scene's, but where voxels are flat
     glm::dvec3 wind{0.0};          ///< velocity with which all instances drift [m/s]

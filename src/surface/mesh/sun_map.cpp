@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <vector>
 
 #include "gpu/groups.h"
@@ -54,18 +56,18 @@ SunMap::SunMap(gpu::Context& context, const MeshScene& scene, const glm::dvec3& 
     size_ = glm::dvec3(texel_ * glm::dvec2(texels), box.upper.z - box.lower.z);
     const glm::dmat3 toWorld = glm::transpose(toMap_);
     const double above = box.upper.z + 1e-3 * size_.z;
-    std::vector<float> heights(static_cast<std::size_t>(texels.x) * static_cast<std::size_t>(texels.y), -3e38F);
+    heights_.assign(static_cast<std::size_t>(texels.x) * static_cast<std::size_t>(texels.y), -3e38F);
     tbb::parallel_for(0, texels.y, [&](int y) {
         check();
         for (int x = 0; x < texels.x; ++x) {
             const glm::dvec2 at = glm::dvec2(corner_) + texel_ * (glm::dvec2(x, y) + 0.5);
             const auto met = scene.meet({toWorld * glm::dvec3(at, above), -toSun}, 1e9);
             if (met)
-                heights[static_cast<std::size_t>(y) * static_cast<std::size_t>(texels.x) +
-                        static_cast<std::size_t>(x)] = static_cast<float>(above - met->metres - corner_.z);
+                heights_[static_cast<std::size_t>(y) * static_cast<std::size_t>(texels.x) +
+                         static_cast<std::size_t>(x)] = static_cast<float>(above - met->metres - corner_.z);
         }
     });
-    gpu::upload(context, image_, heights);
+    gpu::upload(context, image_, heights_);
 }
 
 std::array<glm::vec4, 3> SunMap::rowsFrom(const glm::dvec3& origin) const {
@@ -79,15 +81,27 @@ std::array<glm::vec4, 3> SunMap::rowsFrom(const glm::dvec3& origin) const {
     return rows;
 }
 
+/// The same from cells with these edges that begin at a corner.
+std::array<glm::vec4, 3> SunMap::rowsOf(const glm::dmat3& cells, const glm::dvec3& corner) const {
+    const glm::mat3 linear{cells};
+    std::array<glm::vec4, 3> rows = rowsFrom(corner);
+    for (glm::vec4& row : rows) row = glm::vec4(glm::vec3(row) * linear, row.w);
+    return rows;
+}
+
+gpu::Buffer SunMap::forPhotons(gpu::Context& context, const glm::dmat3& cells, const glm::dvec3& corner) const {
+    const std::array<glm::vec4, 3> rows = rowsOf(cells, corner);
+    const shared::MeshShadeParams params{{rows[0], rows[1], rows[2]}, glm::ivec2(image_.extent())};
+    std::vector<std::byte> bytes(sizeof params + heights_.size() * sizeof(float));
+    std::memcpy(bytes.data(), &params, sizeof params);
+    std::memcpy(bytes.data() + sizeof params, heights_.data(), heights_.size() * sizeof(float));
+    return gpu::filledBuffer(context, "mesh shade", bytes);
+}
+
 void SunMap::shade(gpu::Commands& commands, const gpu::Image& volume, const glm::ivec3& origin, const glm::ivec3& size,
                    const glm::dmat4& texelToWorld) const {
-    const std::array<glm::vec4, 3> rows = rowsFrom(glm::dvec3(texelToWorld[3]));
-    const glm::mat3 linear{glm::dmat3(texelToWorld)};
-    shared::MeshVolumePush push{{}, origin, size};
-    for (int i = 0; i < 3; ++i) {
-        const glm::vec4& row = rows[static_cast<std::size_t>(i)];
-        push.toMap[i] = glm::vec4(glm::vec3(row) * linear, row.w);
-    }
+    const std::array<glm::vec4, 3> rows = rowsOf(glm::dmat3(texelToWorld), glm::dvec3(texelToWorld[3]));
+    const shared::MeshVolumePush push{{rows[0], rows[1], rows[2]}, origin, size};
     const auto texels =
         static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) * static_cast<std::uint64_t>(size.z);
     commands.pass("mesh shadow");

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "gpu/commands.h"
 #include "surface/mesh/mesh_surface.h"
@@ -28,11 +29,18 @@ class SunMap {
     void shade(gpu::Commands& commands, const gpu::Image& volume, const glm::ivec3& origin, const glm::ivec3& size,
                const glm::dmat4& texelToWorld) const;
 
+    /// What photons ask of it (shared::MeshShadeParams and heights), whose cells have these edges and begin at a corner
+    /// [m].
+    gpu::Buffer forPhotons(gpu::Context& context, const glm::dmat3& cells, const glm::dvec3& corner) const;
+
   private:
+    std::array<glm::vec4, 3> rowsOf(const glm::dmat3& cells, const glm::dvec3& corner) const;
+
     glm::dvec3 toSun_;
     glm::dmat3 toMap_;                    ///< rows: across, up, to the sun
     glm::dvec3 corner_{0.0}, size_{0.0};  ///< of the box in these axes, metres
     double texel_ = 1.0;                  ///< metres
+    std::vector<float> heights_;
     gpu::Image image_;
     gpu::Program<shared::MeshVolumePush> program_;
 };
