@@ -10,7 +10,7 @@
 layout(local_size_x = 16, local_size_y = 4) in;
 layout(constant_id = 4) const bool MANY = false;      // more than one cloud
 layout(constant_id = 6) const bool GROUND = false;
-layout(constant_id = 20) const bool SHADOWS = false;  // clouds throw shadows
+layout(constant_id = 20) const bool SHADOWS = false;  // clouds or meshes throw shadows
 layout(constant_id = 24) const bool AIR = false;      // the sky is an atmosphere's, whose planet is round
 layout(constant_id = 25) const bool CHANGED = false;  // clouds change the light of the fog
 layout(binding = 0, rgba32f) uniform image2D cloud;
@@ -32,7 +32,7 @@ layout(binding = 35) uniform sampler3D changeSeen;  // ChangeSeen: columns, rows
 // Held in registers: a load from a buffer costs a loop over the lanes on lavapipe.
 LitFogParams params;
 FogMedium first;
-#include "lib/cloud_shadow.glsl"
+#include "lib/mesh_shadow.glsl"
 #include "lib/lit_fog_ray.glsl"
 #include "lib/lit_fog_depth.glsl"
 #include "lib/taken_light.glsl"
@@ -85,7 +85,8 @@ mat2x3 shadowed(Ray ray, vec3 ends, bool second, float offset, vec3 all) {
         const vec3 opacity = max(exp(-after) - exp(-all), 0.0), light = onceAt(level, row, ray.cosine) * opacity;
         if (step >= 0) {
             const float at = mix(near, far, offset);
-            sums[part] += (1.0 - throughClouds(ray.start + at * ray.towards)) * max(lightBefore - light, 0.0);
+            const vec3 point = ray.start + at * ray.towards;
+            sums[part] += (1.0 - throughClouds(point) * throughMeshes(point)) * max(lightBefore - light, 0.0);
         } else if (step == -1) {
             const vec3 all = before - after;  // `before` is the depth of the end here
             thickness = min(all.x, min(all.y, all.z));
@@ -100,7 +101,7 @@ mat2x3 shadowed(Ray ray, vec3 ends, bool second, float offset, vec3 all) {
 /// The part of a ray in which shadows of clouds may lie.
 vec2 rangeOfShadows(Ray ray, float limit) {
     vec2 range = vec2(limit, 0.0);
-    for (int caster = 0; caster < params.casters; ++caster) {
+    for (int caster = 0; caster < params.casters + params.meshes; ++caster) {
         const vec2 one = shadowRange(CASTER_TEXELS * caster, ray.start, ray.towards);
         if (one.x < one.y) range = vec2(min(range.x, one.x), max(range.y, one.y));
     }

@@ -9,6 +9,7 @@
 #include "lib/entry_disc.glsl"
 #include "lib/environment_sample.glsl"
 #include "lib/ground_light.glsl"
+#include "lib/mesh_shade.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 5) const bool AIR = false;     // an atmosphere: its light differs by direction and place
@@ -52,6 +53,7 @@ void main() {
     vec3 weight = vec3(area / grid.largestWeight);
     if (ofMap) weight = FOG ? vec3(area) : skyWeight(cell, airPlace(params.air, entry).y, area);
     if (GROUND && !FOG && !ofSun) weight *= skyOrGround(point, direction);
+    if (MESHES && ofSun && inMeshShadow(point)) weight = vec3(0.0);
     const int texel = START_TEXELS * int(place);
     imageStore(starts, texel, vec4(point, weight.x));
     imageStore(starts, texel + 1, vec4(direction, weight.y));

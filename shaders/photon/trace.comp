@@ -10,6 +10,7 @@
 #include "lib/density.glsl"
 #include "lib/emission.glsl"
 #include "lib/environment_sample.glsl"
+#include "lib/mesh_shade.glsl"
 #include "lib/traversal.glsl"
 
 layout(local_size_x = 64) in;
@@ -96,6 +97,7 @@ void newDirection(inout TraceState state, inout Walk walk, bool enters, vec4 u, 
         state.weight = vec3(ofSun ? area / params.sunThrough : 1.0);
         if (ofMap) state.weight = FOG ? vec3(area) : skyWeight(cell, airPlace(params.air, voxel).y, area);
         if (GROUND && !FOG && !ofSun) state.weight *= skyOrGround(point, state.direction);
+        if (MESHES && ofSun && inMeshShadow(point)) endPhoton(state);
     }
 }
 

@@ -31,6 +31,7 @@ struct LitFogParams {
     vec3 changeSize;
     float changeNear;
     float changeFar;
+    int meshes;  // 1: they throw shadows, and are one more caster behind those of the clouds
 };
 
 /// Angle within which light that fog scatters may count as not scattered [radians], and its cosine.
@@ -55,11 +56,12 @@ struct LitFogSummary {
 
 /// A cloud that throws a shadow, ten texels: rows from places to voxels; size in voxels; rows from voxels to texture
 /// coordinates of its shadow volume; where the volume begins in the image of all, and how large it is [texels]; optical
-/// depth of the truncated medium per true one.
+/// depth of the truncated medium per true one. Of meshes: rows from places to the box around all of them, as the sun
+/// sees it; its size; rows from places to texels of the map of their heights, and height; three of zeros.
 const int CASTER_TEXELS = 10;
 
 #ifdef __cplusplus
-static_assert(sizeof(LitFogParams) == 188 && offsetof(LitFogParams, changeFar) == 184);
+static_assert(sizeof(LitFogParams) == 192 && offsetof(LitFogParams, meshes) == 188);
 static_assert(sizeof(LitFogSummary) == 12 && offsetof(LitFogSummary, farthest) == 8);
 #endif
 

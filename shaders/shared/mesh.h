@@ -72,6 +72,19 @@ struct MeshPush {
     int anyHit;  // 1: whatever is met, for shadows
 };
 
+/// Adds shadows of meshes to a shadow volume of a cloud.
+struct MeshVolumePush {
+    vec4 toMap[3];  // rows from texels of the volume to columns and rows of the map of heights, and height [m]
+    ivec3 origin;   // of the volume in its image
+    ivec3 size;
+};
+
+/// The map of heights as photons of the sun ask it; behind it lie the heights, columns fastest.
+struct MeshShadeParams {
+    vec4 toMap[3];  // rows from cells of the walk to columns and rows of the map, and height [m]
+    ivec2 size;     // of the map
+};
+
 /// Distance at which a ray enters a box, given 1 / direction; beyond `most` where it does not within (least, most).
 SHARED_FN float meetMeshBox(vec3 lower, vec3 upper, vec3 origin, vec3 inverse, float least, float most) {
     const vec3 a = (lower - origin) * inverse, b = (upper - origin) * inverse;
@@ -114,6 +127,8 @@ static_assert(sizeof(MeshInstance) == 60 && offsetof(MeshInstance, root) == 48);
 static_assert(sizeof(MeshRay) == 40 && offsetof(MeshRay, fromInstance) == 32);
 static_assert(sizeof(MeshHit) == 20 && offsetof(MeshHit, place) == 12);
 static_assert(sizeof(MeshPixel) == 20 && offsetof(MeshPixel, edge) == 16);
+static_assert(sizeof(MeshVolumePush) == 72 && offsetof(MeshVolumePush, size) == 60);
+static_assert(sizeof(MeshShadeParams) == 56 && offsetof(MeshShadeParams, size) == 48);
 static_assert(sizeof(MeshPush) == 8 && offsetof(MeshPush, anyHit) == 4);
 #endif
 

@@ -121,6 +121,11 @@ void Beam::shadeBy(const Clouds& clouds, int edge, const Check& check) {
     shade_ = DepthMap(clouds, lamp_.position, cone, edge, check);
 }
 
+void Beam::shadeBy(const Solids& solids, int edge, const Check& check) {
+    const Cone cone = coneToSphere(solids.middle, solids.radius, lamp_.position, {lamp_.direction, widest_});
+    solids_ = DepthMap(solids, lamp_.position, cone, edge, check);
+}
+
 bool Beam::sample(const glm::dvec3& u, glm::dvec3& direction) const {
     const double away = u.x * versine(widest_), across = std::sqrt(std::max(0.0, away * (2.0 - away)));
     const double azimuth = 2.0 * pi * u.y;

@@ -33,11 +33,14 @@ class Beam {
 
     /// Lets clouds stand in its light. `edge`: directions across the map of their shade. Errors: what `check` throws.
     void shadeBy(const Clouds& clouds, int edge, const Check& check);
-    /// Whether clouds may stand in its light.
-    bool isShaded() const { return !shade_.empty(); }
-    /// Share of the light that clouds let through into a direction up to a distance [m].
+    /// Lets solid bodies stand in its light, as above.
+    void shadeBy(const Solids& solids, int edge, const Check& check);
+    /// Whether clouds or solid bodies may stand in its light.
+    bool isShaded() const { return !shade_.empty() || !solids_.empty(); }
+    /// Share of the light that clouds and solid bodies let through into a direction up to a distance [m].
     double passed(const glm::dvec3& direction, double distance) const {
-        return shade_.transmittance(direction, distance);
+        const double past = solids_.transmittance(direction, distance);
+        return past > 0.0 ? past * shade_.transmittance(direction, distance) : 0.0;
     }
 
     /// A direction drawn by intensity from numbers in [0, 1); false where these give none and others have to be tried.
@@ -48,7 +51,7 @@ class Beam {
     double pyramidShare(const glm::dvec3& direction) const;
 
     scene::Lamp lamp_;
-    DepthMap shade_;
+    DepthMap shade_, solids_;
     glm::dvec3 level_, rising_;  ///< unit vectors square to the axis; of a pyramid, each square to two sides
     double inner_, outer_;       ///< angles to the axis, or to a plane through it, between which the light fades
     double widest_;              ///< largest angle to the axis

@@ -66,11 +66,11 @@ void findDepths(const Clouds& clouds, const Ray& ray, const std::vector<CloudPar
 
 }  // namespace
 
-Cone coneToClouds(const Clouds& clouds, const glm::dvec3& point, const Cone& cone) {
-    const glm::dvec3 way = clouds.middle() - point;
+Cone coneToSphere(const glm::dvec3& middle, double radius, const glm::dvec3& point, const Cone& cone) {
+    const glm::dvec3 way = middle - point;
     const double distance = glm::length(way);
-    if (!(distance > 1.02 * clouds.radius())) return cone;
-    const Cone all{way / distance, std::asin(std::min(1.0, clouds.radius() / distance))};
+    if (!(distance > 1.02 * radius)) return cone;
+    const Cone all{way / distance, std::asin(std::min(1.0, radius / distance))};
     const double between = 2.0 * std::asin(std::min(1.0, 0.5 * glm::length(all.axis - cone.axis)));
     if (between >= all.angle + cone.angle) return {cone.axis, 0.0};
     return all.angle < cone.angle ? all : cone;
@@ -79,9 +79,7 @@ Cone coneToClouds(const Clouds& clouds, const glm::dvec3& point, const Cone& con
 DepthMap::DepthMap(const Clouds& clouds, const glm::dvec3& point, const Cone& cone, int edge, const Check& check)
     : edge_(edge) {
     if (clouds.empty() || !(cone.angle > 0.0)) return;
-    const double half = 0.5 * pi;
-    sides_.push_back({axesAround(cone.axis), versine(std::min(cone.angle, half)), {}, {}});
-    if (cone.angle > half) sides_.push_back({axesAround(-cone.axis), 1.0, {}, {}});
+    begin(cone);
     for (Side& side : sides_) fill(clouds, point, side, check);
     const auto isClear = [](const Side& side) {
         return std::ranges::all_of(side.depths, [](float depth) { return depth == 0.0F; });
@@ -89,43 +87,74 @@ DepthMap::DepthMap(const Clouds& clouds, const glm::dvec3& point, const Cone& co
     if (std::ranges::all_of(sides_, isClear)) sides_.clear();
 }
 
-void DepthMap::fill(const Clouds& clouds, const glm::dvec3& point, Side& side, const Check& check) const {
-    const auto across = static_cast<std::size_t>(edge_), count = across * across;
-    side.ranges.assign(2 * count, 0.0F);
-    side.depths.assign((slices + 1) * count, 0.0F);
+DepthMap::DepthMap(const Solids& solids, const glm::dvec3& point, const Cone& cone, int edge, const Check& check)
+    : edge_(edge) {
+    if (!(cone.angle > 0.0)) return;
+    begin(cone);
+    const auto count = static_cast<std::size_t>(edge_) * static_cast<std::size_t>(edge_);
+    constexpr float nothing = std::numeric_limits<float>::max();
+    bool meets = false;
+    for (Side& side : sides_) {
+        side.ranges.assign(2 * count, nothing);
+        forEachTexel(side, point, check, [&](std::size_t texel, const Ray& ray) {
+            if (const auto met = solids.distance(ray, 1e9)) side.ranges[2 * texel] = static_cast<float>(*met);
+        });
+        meets = meets || std::ranges::any_of(side.ranges, [](float distance) { return distance < nothing; });
+    }
+    if (!meets) sides_.clear();
+}
+
+void DepthMap::begin(const Cone& cone) {
+    const double half = 0.5 * pi;
+    sides_.push_back({axesAround(cone.axis), versine(std::min(cone.angle, half)), {}, {}});
+    if (cone.angle > half) sides_.push_back({axesAround(-cone.axis), 1.0, {}, {}});
+}
+
+template <class FillTexel>
+void DepthMap::forEachTexel(const Side& side, const glm::dvec3& point, const Check& check,
+                            const FillTexel& fill) const {
+    const auto across = static_cast<std::size_t>(edge_);
     // the map goes on for a texel and a half beyond the cone, so that its rim is between texels
     const double most = 1.0 + 3.0 / edge_;
     tbb::parallel_for(std::size_t{0}, across, [&](std::size_t row) {
         check();
-        std::vector<CloudPart> parts;
-        Slices found;
         for (std::size_t column = 0; column < across; ++column) {
             const glm::dvec2 place =
                 most * ((glm::dvec2(column, row) + 0.5) * (2.0 / static_cast<double>(edge_)) - 1.0);
             if (glm::length(place) > most + 1.5 / edge_) continue;
-            const Ray ray{point, directionAt(side.axes, side.widest, place)};
-            parts.clear();
-            clouds.addParts(ray, std::numeric_limits<double>::infinity(), parts);
-            if (parts.empty()) continue;
-            found.begin = std::ranges::min(parts, {}, &CloudPart::begin).begin;
-            found.end = std::ranges::max(parts, {}, &CloudPart::end).end;
-            findDepths(clouds, ray, parts, firstSlices, found);
-            found.shrink();
-            if (!(found.begin < found.end)) continue;
-            findDepths(clouds, ray, parts, slices, found);
-            const std::size_t texel = row * across + column;
-            side.ranges[2 * texel] = static_cast<float>(found.begin);
-            side.ranges[2 * texel + 1] = static_cast<float>(found.end);
-            double sum = 0.0;
-            for (std::size_t i = 0; i < slices; ++i)
-                side.depths[(slices + 1) * texel + i + 1] = static_cast<float>(sum += found.depths[i]);
+            fill(row * across + column, Ray{point, directionAt(side.axes, side.widest, place)});
         }
+    });
+}
+
+void DepthMap::fill(const Clouds& clouds, const glm::dvec3& point, Side& side, const Check& check) const {
+    const auto count = static_cast<std::size_t>(edge_) * static_cast<std::size_t>(edge_);
+    side.ranges.assign(2 * count, 0.0F);
+    side.depths.assign((slices + 1) * count, 0.0F);
+    forEachTexel(side, point, check, [&](std::size_t texel, const Ray& ray) {
+        thread_local std::vector<CloudPart> parts;  // no allocation a ray
+        thread_local Slices found;
+        parts.clear();
+        clouds.addParts(ray, std::numeric_limits<double>::infinity(), parts);
+        if (parts.empty()) return;
+        found.begin = std::ranges::min(parts, {}, &CloudPart::begin).begin;
+        found.end = std::ranges::max(parts, {}, &CloudPart::end).end;
+        findDepths(clouds, ray, parts, firstSlices, found);
+        found.shrink();
+        if (!(found.begin < found.end)) return;
+        findDepths(clouds, ray, parts, slices, found);
+        side.ranges[2 * texel] = static_cast<float>(found.begin);
+        side.ranges[2 * texel + 1] = static_cast<float>(found.end);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < slices; ++i)
+            side.depths[(slices + 1) * texel + i + 1] = static_cast<float>(sum += found.depths[i]);
     });
 }
 
 double DepthMap::passed(const Side& side, std::size_t texel, double distance) const {
     const auto begin = static_cast<double>(side.ranges[2 * texel]),
                end = static_cast<double>(side.ranges[2 * texel + 1]);
+    if (side.depths.empty()) return distance <= begin ? 1.0 : 0.0;
     if (distance <= begin || !(begin < end)) return 1.0;
     const double place = std::min(1.0, (distance - begin) / (end - begin)) * static_cast<double>(slices);
     const auto slice = std::min(static_cast<std::size_t>(place), slices - 1);

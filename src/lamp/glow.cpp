@@ -83,9 +83,15 @@ Glow::Glow(const Camera& camera, const Around& around, std::span<const Beam> bea
     Kinds all{Level(cells), Level(ofClouds)};
     const Cone inView = coneToClouds(around.clouds, camera.position, {camera.axes[2], std::numbers::pi});
     const DepthMap before(around.clouds, camera.position, inView, eyeMapEdge, check);
+    DepthMap solids;
+    if (around.solids != nullptr)
+        solids = DepthMap(*around.solids, camera.position,
+                          coneToSphere(around.solids->middle, around.solids->radius, camera.position,
+                                       {camera.axes[2], std::numbers::pi}),
+                          2 * eyeMapEdge, check);
     std::vector<Kinds> sums(parts, all);
     const LightPaths light(around, beams, paths.count, paths.seed);
-    const Eye eye{camera.position, before, light.leastDistance(camera.position)};
+    const Eye eye{camera.position, before, solids, light.leastDistance(camera.position)};
     tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
         Kinds& own = sums[part];
         for (std::uint64_t i = part; i < paths.count; i += parts) {

@@ -28,6 +28,8 @@ constexpr double farBlocks = 5.0;
 
 /// Directions across the map of the shade of a lamp, and those of all maps together.
 constexpr double widestMap = 192.0, narrowestMap = 16.0, allMaps = 192.0 * 192.0 * 8.0;
+/// The same for solid bodies.
+constexpr double widestSolidMap = 512.0, allSolidMaps = 512.0 * 512.0 * 6.0;
 /// Rays across a pixel that sees clouds.
 constexpr double fewestRays = 1.0, mostRays = 4.0;
 
@@ -51,18 +53,20 @@ class LampPainter {
           tile_(tile),
           ground_(around.ground),
           haze_(around.fog, camera.position),
-          clouds_(around.clouds) {
+          clouds_(around.clouds),
+          solids_(around.solids) {
         for (const scene::Lamp& lamp : around.lamps)
             if (lamp.shines() && !(ground_ && lamp.position.y + lamp.radius <= ground_->height))
                 beams_.emplace_back(lamp);
         discs_.resize(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height));
         light_.resize(discs_.size(), glm::dvec3(0.0));
         if (!clouds_.empty()) castShadows(check);
-        findDiscs();
+        if (solids_ != nullptr) castSolidShadows(check);
+        if (around.discs) findDiscs();
     }
 
     const std::vector<Beam>& beams() const { return beams_; }
-    Around around() const { return {haze_, clouds_, ground_}; }
+    Around around() const { return {haze_, clouds_, ground_, solids_}; }
     bool scatters() const { return !haze_.isClear() || !clouds_.empty(); }
 
     void paint(const Check& check, const Glow* glow) {
@@ -94,9 +98,22 @@ class LampPainter {
     }
     Ray rayOf(const glm::dvec2& place) const { return camera_.ray(place.x, place.y); }
 
-    double endOf(const Ray& ray) const {
+    double groundOn(const Ray& ray) const {
         if (!ground_ || !(ray.direction.y < 0.0)) return farAway;
         return std::min(farAway, std::max(0.0, ray.origin.y - ground_->height) / -ray.direction.y);
+    }
+
+    /// Where a ray meets the ground or something before it.
+    double endOf(const Ray& ray) const {
+        const double ground = groundOn(ray);
+        return solids_ != nullptr ? solids_->end(ray, ground) : ground;
+    }
+
+    /// The light of the ground where a ray sees it.
+    glm::dvec3 groundOf(const Ray& ray) const {
+        const double metres = groundOn(ray);
+        if (!(metres < farAway) || endOf(ray) < metres) return glm::dvec3(0.0);
+        return groundSeen(ray, metres);
     }
 
     /// The end of the ray of a pixel of the tile: a lamp's disc ends it where it covers most of the pixel.
@@ -118,11 +135,22 @@ class LampPainter {
             static_cast<int>(std::clamp(std::round(2.0 * pixel * away / clouds_.finestVoxel()), fewestRays, mostRays));
     }
 
+    void castSolidShadows(const Check& check) {
+        const double edge = std::sqrt(allSolidMaps / static_cast<double>(beams_.size()));
+        for (Beam& beam : beams_)
+            beam.shadeBy(*solids_, static_cast<int>(std::clamp(edge, narrowestMap, widestSolidMap)), check);
+    }
+
+    /// Whether a solid body stands before what is at a distance, in the middle of a pixel.
+    bool isHidden(const glm::ivec2& pixel, double distance) const {
+        return solids_ != nullptr && endOf(rayOf(glm::dvec2(pixel) + 0.5)) < distance;
+    }
+
     void findDiscs() {
         for (const Beam& beam : beams_) {
             const glm::dvec3 way = beam.position() - camera_.position;
             const double distance = glm::length(way);
-            if (distance <= beam.radius() || endOf({camera_.position, way / distance}) < distance - beam.radius())
+            if (distance <= beam.radius() || groundOn({camera_.position, way / distance}) < distance - beam.radius())
                 continue;
             const glm::dvec3 direction = way / distance;
             const double angle = std::asin(std::min(1.0, beam.radius() / distance));
@@ -131,6 +159,7 @@ class LampPainter {
                                         (std::numbers::pi * beam.radius() * beam.radius()) *
                                         glm::exp(-haze_.depth({camera_.position, direction}, distance - beam.radius()));
             for (const frame::CoveredPixel& seen : frame::sunCover(camera_, tile_, direction, angle)) {
+                if (isHidden(seen.pixel, distance - beam.radius())) continue;
                 Disc& disc = discs_[indexOf(seen.pixel)];
                 light_[indexOf(seen.pixel)] += seen.share * radiance;
                 disc.share = std::min(1.0F, disc.share + static_cast<float>(seen.share));
@@ -160,8 +189,7 @@ class LampPainter {
         glm::dvec3 sum(0.0);
         for (int i = 0; i < rays * rays; ++i) {
             const Ray ray = rayOf(glm::dvec2(pixel) + (glm::dvec2(i % rays, i / rays) + 0.5) / double(rays));
-            const double metres = endOf(ray);
-            if (metres < farAway) sum += groundSeen(ray, metres);
+            sum += groundOf(ray);
         }
         return sum / static_cast<double>(rays * rays);
     }
@@ -236,7 +264,7 @@ class LampPainter {
             ends[k] = endOf(rays[k]);
         }
         const auto grounded = std::ranges::count_if(ends, [](double end) { return end < farAway; });
-        const bool mixed = grounded != 0 && grounded != 4;
+        const bool mixed = (grounded != 0 && grounded != 4) || seesSolids(first);
         if (seesClouds(first)) return paintAmongClouds(first, glow);
         std::vector<const Beam*> near, beams;
         std::array<glm::dvec3, 4> far{};
@@ -268,6 +296,15 @@ class LampPainter {
                pixel.y < tile_.y + tile_.height;
     }
 
+    /// Whether a pixel of a block shows a solid body.
+    bool seesSolids(const glm::ivec2& first) const {
+        if (solids_ == nullptr) return false;
+        for (int i = 0; i < block * block; ++i)
+            if (solids_->distance(rayOf(glm::dvec2(first + glm::ivec2(i % block, i / block)) + 0.5), farAway))
+                return true;
+        return false;
+    }
+
     /// Whether there may be clouds in a block.
     bool seesClouds(const glm::ivec2& first) const {
         if (clouds_.empty()) return false;
@@ -296,8 +333,8 @@ class LampPainter {
                 const SeenAmongClouds seen = scatteredAmongClouds(around(), beams, ray, endIn(pixel, ray));
                 light += seen.light;
                 clear += seen.clear;
-                const double metres = endOf(ray), open = 1.0 - static_cast<double>(discs_[indexOf(pixel)].share);
-                if (metres < farAway) light += open * seen.clear * groundSeen(ray, metres);
+                const double open = 1.0 - static_cast<double>(discs_[indexOf(pixel)].share);
+                if (ground_) light += open * seen.clear * groundOf(ray);
             }
             const double each = 1.0 / (rays * rays);
             light_[indexOf(pixel)] += each * light;
@@ -333,6 +370,7 @@ class LampPainter {
     std::optional<scene::Ground> ground_;
     Haze haze_;
     Clouds clouds_;
+    const Solids* solids_;
     int raysAmongClouds_ = 1;
     std::vector<Beam> beams_;
     std::vector<Disc> discs_;

@@ -6,6 +6,7 @@
 #include "base/image.h"
 #include "base/interrupt.h"
 #include "lamp/clouds.h"
+#include "lamp/solids.h"
 #include "scene/scene.h"
 #include "view/camera.h"
 #include "view/view.h"
@@ -20,6 +21,8 @@ struct Surroundings {
     int paths = 0;                        ///< paths of light that is scattered more than once; 0: none
     std::uint64_t seed = 1;
     std::vector<Cloud> clouds{};
+    const Solids* solids = nullptr;  ///< null: there is none
+    bool discs = true;               ///< whether lamps themselves are seen
 };
 
 /// Adds the light of lamps to the part `tile` of a picture: their discs, what the ground reflects of them, and what fog

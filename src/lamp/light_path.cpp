@@ -53,8 +53,8 @@ struct LightPaths::Walk {
     glm::dvec3 weight{0.0};
     double first = 0.0;  ///< sum of the weight at the lamp
     int events = 0;
-    bool onGround = false;
-    std::optional<std::size_t> cloud;  ///< that it is in
+    std::optional<glm::dvec3> surface;  ///< normal of what it is on
+    std::optional<std::size_t> cloud;   ///< that it is in
 
     glm::dvec4 numbers() {
         ++key.y;
@@ -63,7 +63,13 @@ struct LightPaths::Walk {
 };
 
 LightPaths::LightPaths(const Around& around, std::span<const Beam> beams, std::uint64_t count, std::uint64_t seed)
-    : haze_(around.haze), clouds_(around.clouds), ground_(around.ground), beams_(beams), count_(count), seed_(seed) {
+    : haze_(around.haze),
+      clouds_(around.clouds),
+      ground_(around.ground),
+      solids_(around.solids),
+      beams_(beams),
+      count_(count),
+      seed_(seed) {
     double sum = 0.0;
     for (const Beam& beam : beams) upTo_.push_back(sum += sumOf(beam.power()));
     for (double& each : upTo_) each /= sum;
@@ -98,11 +104,14 @@ bool LightPaths::step(Walk& walk) const {
     const bool falls = ground_ && walk.ray.direction.y < 0.0;
     if (falls) high = std::min(high, (walk.ray.origin.y - ground_->height) / -walk.ray.direction.y);
     const bool grounded = falls && high < farAway;
+    const std::optional<SolidMeeting> solid = solids_ != nullptr ? solids_->meet(walk.ray, high) : std::nullopt;
+    if (solid) high = solid->metres;
     const std::optional<Meeting> meeting = meetCloud(walk, high);
     if (meeting) high = meeting->metres;
     if (haze_.isClear() || haze_.depth(walk.ray, high)[channel] <= wanted) {
+        if (!meeting && solid) return meetSolid(walk, *solid, chances);
         if (!meeting) return grounded && meetGround(walk, high, chances);
-        walk.onGround = false;
+        walk.surface.reset();
         walk.cloud = meeting->cloud;
         return goTo(walk, high, clouds_[meeting->cloud].albedo, chances);
     }
@@ -123,7 +132,7 @@ bool LightPaths::step(Walk& walk) const {
     if (!(density > 0.0)) return false;
     walk.weight *= haze_.scattering(point) * passed / density;
     walk.ray.origin = point;
-    walk.onGround = false;
+    walk.surface.reset();
     walk.cloud.reset();
     return true;
 }
@@ -147,14 +156,31 @@ bool LightPaths::goTo(Walk& walk, double metres, const glm::dvec3& albedo, const
 bool LightPaths::meetGround(Walk& walk, double metres, const glm::dvec3& chances) const {
     if (!goTo(walk, metres, ground_->albedo, chances)) return false;
     walk.ray.origin.y = ground_->height;
-    walk.onGround = true;
+    walk.surface = glm::dvec3(0.0, 1.0, 0.0);
     walk.cloud.reset();
     return true;
 }
 
+bool LightPaths::meetSolid(Walk& walk, const SolidMeeting& solid, const glm::dvec3& chances) const {
+    constexpr double off = 1e-6;  // of the distances there, so that the next ray does not meet the same
+    if (!goTo(walk, solid.metres, solid.albedo, chances)) return false;
+    walk.ray.origin +=
+        off * (solids_->radius + glm::length(walk.ray.origin - solids_->middle) + solid.metres) * solid.normal;
+    walk.surface = solid.normal;
+    walk.cloud.reset();
+    return true;
+}
+
+/// Whether a solid body stands between the event and the eye.
+bool LightPaths::hidden(const Walk& walk, const Eye& eye, const glm::dvec3& way, double distance) const {
+    if (solids_ == nullptr || eye.solids.empty()) return false;
+    if (walk.surface) return solids_->distance({walk.ray.origin, way}, distance).has_value();
+    return eye.solids.transmittance(-way, distance) < 0.5;
+}
+
 /// What an event sends of the path's light into a direction [1/sr].
 glm::dvec3 LightPaths::response(const Walk& walk, const glm::dvec3& direction) const {
-    if (walk.onGround) return glm::dvec3(std::max(0.0, direction.y) / pi);
+    if (walk.surface) return glm::dvec3(std::max(0.0, glm::dot(*walk.surface, direction)) / pi);
     if (walk.cloud) return clouds_[*walk.cloud].phase.between(walk.ray.direction, direction);
     return haze_.turned(walk.ray.origin, glm::dot(walk.ray.direction, direction)) /
            glm::max(haze_.scattering(walk.ray.origin), glm::dvec3(1e-300));
@@ -174,7 +200,7 @@ void LightPaths::show(const Walk& walk, const Eye& eye, const Seen& seen) const 
     if (!(distance > 0.0)) return;
     const glm::dvec3 direction = way / distance;
     const double least = eye.least, clear = eye.clouds.transmittance(-direction, distance);
-    if (clear < 1e-6) return;
+    if (clear < 1e-6 || hidden(walk, eye, direction, distance)) return;
     const glm::dvec3 passed = glm::exp(-haze_.depth({eye.position, -direction}, distance));
     seen(-direction, clear * walk.weight * response(walk, direction) * passed / (distance * distance + least * least),
          walk.cloud.has_value());
@@ -186,8 +212,8 @@ void LightPaths::turn(Walk& walk) const {
         walk.ray.direction = clouds_[*walk.cloud].phase.sample(walk.ray.direction, u);
         return;
     }
-    walk.ray.direction = walk.onGround
-                             ? around({0.0, 1.0, 0.0}, std::sqrt(u.x), u.y)
+    walk.ray.direction = walk.surface
+                             ? around(*walk.surface, std::sqrt(u.x), u.y)
                              : around(walk.ray.direction, cosineOf(haze_.meanCosine(walk.ray.origin, u.z), u.x), u.y);
 }
 

@@ -20,12 +20,14 @@ struct Around {
     const Haze& haze;
     const Clouds& clouds;
     const std::optional<scene::Ground>& ground;
+    const Solids* solids = nullptr;  ///< null: there is none
 };
 
 /// Who sees the events of paths.
 struct Eye {
     glm::dvec3 position{0.0};
     const DepthMap& clouds;  ///< before it
+    const DepthMap& solids;  ///< the same
     double least = 0.0;      ///< LightPaths::leastDistance() of it
 };
 
@@ -50,6 +52,8 @@ class LightPaths {
     bool start(Walk& walk, std::uint64_t path) const;
     bool step(Walk& walk) const;
     bool goTo(Walk& walk, double metres, const glm::dvec3& albedo, const glm::dvec3& chances) const;
+    bool meetSolid(Walk& walk, const SolidMeeting& solid, const glm::dvec3& chances) const;
+    bool hidden(const Walk& walk, const Eye& eye, const glm::dvec3& way, double distance) const;
     bool meetGround(Walk& walk, double metres, const glm::dvec3& chances) const;
     std::optional<Meeting> meetCloud(Walk& walk, double limit) const;
     glm::dvec3 response(const Walk& walk, const glm::dvec3& direction) const;
@@ -59,6 +63,7 @@ class LightPaths {
     const Haze& haze_;
     const Clouds& clouds_;
     std::optional<scene::Ground> ground_;
+    const Solids* solids_;
     std::span<const Beam> beams_;
     std::uint64_t count_, seed_;
     std::vector<double> upTo_;  ///< share of the power in this lamp and those before

@@ -120,6 +120,7 @@ void GroundView::update(gpu::Context& context, World& world, bool coarse) {
         }
         light_->setSun(media, sun, coarse ? coarseShare * sunNodes_ : sunNodes_, stopIfInterrupted);
         light_->setSky(sky);
+        if (meshes_) light_->setMeshes(meshes_(light_->ground(), sun, sky));
         clouds_ = std::move(clouds);
         sun_ = sun;
         fogVersion_ = world.fogVersion;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/interrupt.h"
@@ -19,6 +21,9 @@ class GroundView {
     /// `interactive`: the sun moves from picture to picture, and its shadow has fewer nodes.
     explicit GroundView(bool interactive) : sunNodes_(interactive ? 8192.0 : 65536.0) {}
 
+    /// What meshes do to the light on a ground, of that sun and a sky of that radiance.
+    using Meshes = std::function<surface::GroundMeshes(const scene::Ground&, const scene::Sun&, const glm::dvec3& sky)>;
+    void setMeshes(Meshes meshes) { meshes_ = std::move(meshes); }
     /// Brings the light on the ground up to date, on all threads. A generation's check is not asked meanwhile: it draws
     /// pictures of others, and that only on the thread of the generation. For a `coarse` picture (View::coarse) the
     /// shadow of a sun that has moved has a quarter of the nodes. Errors: Error where interrupted.
@@ -45,6 +50,7 @@ class GroundView {
     std::uint64_t fogVersion_ = 0;  ///< of the fog that sun and sky come through
     bool sunIsCoarse_ = false;
     double sunNodes_;
+    Meshes meshes_;
 };
 
 /// What clouds change of the light of an atmosphere's ground, as pixels of a part of the picture see it through the air

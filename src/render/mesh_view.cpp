@@ -36,7 +36,7 @@ double sunCell(const World& world, const query::Media& media) {
 }  // namespace
 
 MeshView::MeshView(gpu::Context& context, const scene::Scene& scene, const Check& check)
-    : scene_(scene, check), tracer_(context, scene_) {}
+    : scene_(scene, check), solids_(surface::solidsOf(scene_)), tracer_(context, scene_) {}
 
 View MeshView::surroundings(const World& world) const {
     const bvh::Box& box = scene_.world.box;
@@ -52,7 +52,40 @@ View MeshView::surroundings(const World& world) const {
     return view;
 }
 
-void MeshView::setLight(gpu::Context& context, World& world, const LayeredImage& seen, const Check& check) {
+void MeshView::setSun(gpu::Context& context, const World& world, const Check& check) {
+    const scene::Sun& sun = world.lights.direct();
+    const bool needed = world.lights.hasSun() && (world.fogLight || world.hasShadows() || world.photons);
+    if (!needed || (sunMap_ && sunMap_->toSun() == sun.directionTo)) return;
+    sunMap_.reset();
+    sunMap_.emplace(context, scene_, sun.directionTo, check);
+}
+
+const gpu::Buffer& MeshView::forPhotons(gpu::Context& context, const World& world, const glm::dmat3& cells,
+                                        const glm::dvec3& corner) {
+    setSun(context, world, stopIfInterrupted);
+    forPhotons_.reset();
+    forPhotons_.emplace(sunMap_->forPhotons(context, cells, corner));
+    return *forPhotons_;
+}
+
+void MeshView::addTo(fog::ShadowCasters& casters, const glm::dvec3& eye) const {
+    if (!sunMap_) return;
+    casters.meshes = &sunMap_->image();
+    for (const glm::vec4& row : sunMap_->boxFrom(eye)) casters.texels.push_back(row);
+    for (const glm::vec4& row : sunMap_->rowsFrom(eye)) casters.texels.push_back(row);
+    for (int i = 0; i < 3; ++i) casters.texels.emplace_back(0.0F);
+}
+
+void MeshView::shade(gpu::Commands& commands, const cloud::Instance& instance, const light::ShadowGrid& grid,
+                     const gpu::Image& volume, const glm::ivec3& origin) const {
+    if (!sunMap_) return;
+    glm::dmat4 texelToWorld(instance.voxelToMetres * grid.gridToVoxel);
+    texelToWorld[3] = glm::dvec4(instance.voxelToMetres * grid.originVoxel + instance.origin + instance.offset, 1.0);
+    sunMap_->shade(commands, volume, origin, grid.size, texelToWorld);
+}
+
+void MeshView::setLight(gpu::Context& context, World& world, const LayeredImage& seen,
+                        const std::vector<scene::Lamp>& lamps, const Check& check) {
     const prefilter::Panorama around =
         prefilter::panoramaOf(seen.width, seen.height, seen.layers.at("R"), seen.layers.at("G"), seen.layers.at("B"));
     query::Media media = mediaOf(context, world, check);
@@ -73,6 +106,9 @@ void MeshView::setLight(gpu::Context& context, World& world, const LayeredImage&
     light_ = surface::MeshLight{prefilter::CubeMap(around, aroundFaces, check),
                                 surface::SunField(cell, groundHeight(world), irradiance), sun.directionTo,
                                 glm::radians(0.5 * sun.angularDiameter)};
+    if (!lamps.empty())
+        light_->lamps = std::make_shared<surface::LampShading>(scene_, lamps, world.fog, scene_.world.middle,
+                                                               cloudsForLamps(context, world, check));
     if (!shading_) shading_.emplace(scene_, tracer_, *light_);
 }
 
@@ -83,6 +119,11 @@ surface::MeshPixels MeshView::draw(GpuWork& work, const World& world, const Came
                                coarse ? coarseDirections : directions, run, check);
 }
 
+surface::GroundMeshes MeshView::shadeOn(const scene::Ground& ground, const scene::Sun& sun,
+                                        const glm::dvec3& sky) const {
+    return surface::shadeOnGround(scene_, ground, sun, sky, stopIfInterrupted);
+}
+
 void requireDrawableMeshes(const scene::Scene& scene, bool served) {
     if (scene.meshes.empty()) return;
     constexpr const char* leaveOut = "leave meshes out: --set mesh=[]";
@@ -91,9 +132,6 @@ void requireDrawableMeshes(const scene::Scene& scene, bool served) {
     if (scene.draw.mode == scene::DrawMode::billboards)
         throw InputError("billboards are not drawn among meshes", where,
                          std::string("write draw.mode = \"march\", or ") + leaveOut);
-    if (std::ranges::any_of(scene.lamps, &scene::Lamp::shines))
-        throw InputError("lamps do not light meshes yet", where,
-                         std::string("use lumulus reference, leave lamps out, or ") + leaveOut);
 }
 
 void paintMeshes(GpuWork& work, const surface::MeshPixels& meshes, const Tile& tile, const glm::vec3& sky,

@@ -14,7 +14,7 @@ struct Entry {
     Stage stage;
 };
 
-constexpr std::array<Entry, 33> entries{{
+constexpr std::array<Entry, 34> entries{{
     {"photon starts", Stage::photons},
     {"trace", Stage::photons},
     {"sort", Stage::photons},
@@ -26,6 +26,7 @@ constexpr std::array<Entry, 33> entries{{
     {"billboard means", Stage::light},
     {"shadow volume", Stage::shadowVolume},
     {"shared shadow", Stage::shadowVolume},
+    {"mesh shadow", Stage::shadowVolume},
     {"mesh rays", Stage::draw},
     {"march", Stage::draw},
     {"billboards", Stage::draw},

@@ -152,7 +152,8 @@ void PictureOrder::drawLitFog(ViewState::State& state, const std::vector<shared:
                               const std::vector<glm::vec4>& groundSeen) {
     makeShadows(work, world, shadowReduction);
     litFog->update(*world.fogLight, world.fogVersion);
-    const fog::ShadowCasters casters = shadowCasters(world, state.camera);
+    fog::ShadowCasters casters = shadowCasters(world, state.camera);
+    if (meshes != nullptr) meshes->addTo(casters, state.camera.position);
     const gpu::Image* sky = state.sky ? state.sky->behind() : nullptr;
     const fog_change::ChangeSeen* change =
         fogChange != nullptr ? &fogChange->seenBy(work.context, world, state.camera, state.coarse, check) : nullptr;

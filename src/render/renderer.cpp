@@ -8,8 +8,6 @@
 #include "base/stopwatch.h"
 #include "frame/background.h"
 #include "frame/view_params.h"
-#include "lamp/air.h"
-#include "lamp/lamp_picture.h"
 #include "light/photon/traced_sums.h"
 #include "render/changes.h"
 #include "render/drawable.h"
@@ -89,14 +87,15 @@ void Renderer::State::makePainters(const scene::Scene& scene) {
     statistics.device = context.device().name;
     if (!scene.fog.media.empty()) fog.emplace(context, world->fog, check);
     if (world->fogLight)
-        litFog.emplace(context, fog::LitFog::Has{world->hasShadows(), world->sharedShadow.has_value(),
-                                                 world->lights.ground || world->airOverFog,
-                                                 world->airOverFog != nullptr, changesFog(*world)});
+        litFog.emplace(context,
+                       fog::LitFog::Has{world->hasShadows() || (world->meshes && world->lights.hasSun()),
+                                        world->sharedShadow.has_value(), world->lights.ground || world->airOverFog,
+                                        world->airOverFog != nullptr, changesFog(*world)});
     if (changesFog(*world)) fogChange.emplace(context, *world, check);
     if (world->shadedGround() != nullptr) ground.emplace(keepRing);
     for (const auto& asset : world->assets) statistics.collectors += asset->collectors.size();
     requireDrawableMeshes(scene, keepRing);
-    if (!scene.meshes.empty()) meshes.emplace(context, scene, check);
+    if (world->meshes) setMeshes(scene);
     if (!world->visible().empty()) painter.emplace(context, *world, scene.draw, meshes.has_value());
 }
 
@@ -192,32 +191,6 @@ void Renderer::State::show(ViewState::State& state, const View& view) const {
     state.coarse = view.coarse;
     state.raysAcross = raysAcross(state.camera, view.mostRays);
     state.spacing = painter ? painter->samplingSpacing(*world, state.camera) : 1;
-}
-
-void Renderer::State::addLamps(LayeredImage& picture, const Camera& seen, const View& view) {
-    if (seen.projection == scene::Projection::orthographic)
-        throw InputError("lamps are not drawn in orthographic views", "camera.projection",
-                         "use a perspective camera, or leave them out: --set lamp=[]");
-    report("lamps", 0, 1);
-    // as many as the photons of the map of sun and sky
-    const std::int64_t paths = std::min<std::int64_t>(world->photonMap.photons / (view.coarse ? 16 : 1), 100'000'000);
-    const light::LightSet& lights = world->lights;
-    const sky::Atmosphere* air = lights.environment.atmosphere();
-    const scene::Fog haze = air != nullptr ? lamp::withAir(world->fog, air->air(), air->groundHeight()) : world->fog;
-    lamp::addLamps(picture, seen, drawnTile(view),
-                   {lamps, haze, lights.planet ? lights.planet : lights.ground, static_cast<int>(paths),
-                    world->photonMap.seed, cloudsForLamps(context, *world, check)},
-                   check);
-    report("lamps", 1, 1);
-}
-
-void Renderer::State::lightMeshes(PictureOrder& order) {
-    report("light on meshes", 0, 1);
-    const View around = meshes->surroundings(*world);
-    ViewState from;
-    show(from.state(), around);
-    meshes->setLight(context, *world, order.picture(from.state(), around), check);
-    report("light on meshes", 1, 1);
 }
 
 LayeredImage Renderer::draw() {

@@ -59,8 +59,11 @@ struct Renderer::State {
     void makePainters(const scene::Scene& scene);
     /// Sets what the view state keeps of a view.
     void show(ViewState::State& state, const View& view) const;
+    /// Sets the meshes of the scene, which throw shadows on the ground too.
+    void setMeshes(const scene::Scene& scene);
     /// Adds the light of lamps to a picture of a view.
-    void addLamps(LayeredImage& picture, const Camera& seen, const View& view);
+    /// `around`: the view shows what surrounds the meshes, without meshes and lamps themselves.
+    void addLamps(LayeredImage& picture, const Camera& seen, const View& view, bool around = false);
     /// Draws what surrounds the meshes, by the order of a picture without them.
     void lightMeshes(struct PictureOrder& order);
     int raysAcross(const Camera& camera, int most) const;

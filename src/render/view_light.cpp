@@ -47,10 +47,15 @@ light::CollisionEstimates estimates(const photon::PhotonMap& photons, std::size_
             moment};
 }
 
-void recordShadow(gpu::Commands& commands, const cloud::Instance& instance, light::InstanceLight& light,
-                  int reduction) {
+/// `meshShade`: World's, where no other instance shades this one.
+void recordShadow(gpu::Commands& commands, const cloud::Instance& instance, light::InstanceLight& light, int reduction,
+                  const decltype(World::meshShade)& meshShade) {
     if (light.shadowReduction != 0 && light.shadowReduction <= reduction) return;
     light.shadow->record(commands, -light.sun.directionTo, instance.medium.extinction, reduction);
+    if (meshShade) {
+        commands.barrier("shadow volume");
+        meshShade(commands, instance, light.shadow->grid(), light.shadow->image(), glm::ivec3(0));
+    }
     light.shadowReduction = reduction;
     ++light.shadowVersion;
     light.sharpening = false;
@@ -66,6 +71,12 @@ void shareShadows(GpuWork& work, World& world) {
     if (world.sharedShadow->isUpToDate(all)) return;
     work.run([&](gpu::Commands& commands) {
         world.sharedShadow->record(commands, all, -world.lights.direct().directionTo);
+        for (std::size_t place = 0; world.meshShade && place < all.size(); ++place) {
+            if (all[place].shadow == nullptr) continue;
+            world.meshShade(commands, *all[place].instance, all[place].shadow->grid(), world.sharedShadow->image(),
+                            world.sharedShadow->origin(place));
+            commands.barrier("mesh shadow");
+        }
     });
 }
 
@@ -135,7 +146,8 @@ void makeShadows(GpuWork& work, World& world, int reduction) {
     for (std::size_t done = 0; done < old.size(); done += atOnce)
         work.run([&](gpu::Commands& commands) {
             for (std::size_t k = done; k < std::min(done + atOnce, old.size()); ++k)
-                recordShadow(commands, world.instances[old[k]], world.light[old[k]], reduction);
+                recordShadow(commands, world.instances[old[k]], world.light[old[k]], reduction,
+                             world.sharedShadow ? nullptr : world.meshShade);
         });
     if (world.sharedShadow) shareShadows(work, world);
 }

@@ -200,6 +200,7 @@ CloudVolumes Maker::load() {
 
 /// What of the light is made beforehand.
 void Maker::lightUp() {
+    world_.meshes = !scene_.meshes.empty();
     const std::vector<std::size_t> visible = world_.visible();
     if (visible.size() > 1) {
         std::vector<const cloud::Instance*> instances;
@@ -243,6 +244,7 @@ photon::Options Maker::photonOptions() const {
     options.seed = wanted.seed;
     options.keepRing = options_.keepRing;
     options.ground = world_.shadedGround() != nullptr;
+    options.meshes = world_.meshes && world_.lights.hasSun();
     options.splitGenerations = options_.progressive;
     options.check = options_.check;
     const std::optional<photon::AirLight>& air = world_.air ? world_.air : world_.light[world_.visible().front()].air;
@@ -316,7 +318,7 @@ std::vector<std::size_t> World::visible() const {
 const scene::Ground* World::shadedGround() const {
     if (lights.ground) return &*lights.ground;
     const bool dense = std::ranges::none_of(assets, [](const auto& asset) { return asset->isSparse(); });
-    return lights.planet && dense && !assets.empty() ? &*lights.planet : nullptr;
+    return lights.planet && dense && (meshes || !assets.empty()) ? &*lights.planet : nullptr;
 }
 
 bool World::hasShadows() const {

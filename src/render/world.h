@@ -45,7 +45,14 @@ struct World {
     std::shared_ptr<const fog_light::AirOverFog> airOverFog{};  ///< of that fog, under an atmosphere
     /// Where several instances are lit by the sun: shadow volumes with what stands before them.
     std::optional<light::SharedShadow> sharedShadow{};
-    Bounds bounds{};               ///< of all instances, without their offsets
+    Bounds bounds{};      ///< of all instances, without their offsets
+    bool meshes = false;  ///< stand in it, and throw shadows on the ground
+    /// Adds their shadows to the shadow volume of an instance, which begins at `origin` in an image; empty without.
+    std::function<void(gpu::Commands&, const cloud::Instance&, const light::ShadowGrid&, const gpu::Image&,
+                       const glm::ivec3& origin)>
+        meshShade{};
+    /// The same for photons, whose cells have these edges and begin at a corner [m]; empty without.
+    std::function<const gpu::Buffer&(const glm::dmat3& cells, const glm::dvec3& corner)> meshHeights{};
     bool levelsOfDetail = false;   ///< whether instances have voxels chosen by their size in the picture
     scene::PhotonMap photonMap{};  ///< that is asked for: the scene's, but where voxels are flat
     glm::dvec3 wind{0.0};          ///< velocity with which all instances drift [m/s]
@@ -55,8 +62,8 @@ struct World {
     std::vector<std::size_t> visible() const;
     bool hasPhotons() const { return photons.has_value(); }
     bool hasShadows() const;
-    /// The ground on which clouds throw shadows: the scene's, or the planet's, where densities can be read back of all
-    /// clouds; else null.
+    /// The ground on which clouds and meshes throw shadows: the scene's, or the planet's, where densities can be read
+    /// back of all clouds; else null.
     const scene::Ground* shadedGround() const;
 };
 

@@ -140,9 +140,12 @@ bool traceAll(World& world, const CutOff& cutOff, const photon::Ground* ground) 
         } else {
             sun = only.sun;
         }
+        const glm::dvec3 corner = visible.size() > 1 ? world.photons->corner() : first.origin + first.offset;
+        if (world.meshHeights && world.lights.hasSun())
+            world.photons->setMeshes(world.meshHeights(world.photons->cellsToWorld(), corner));
         if (ground != nullptr) {
             photon::Ground below = *ground;
-            below.corner = visible.size() > 1 ? world.photons->corner() : first.origin + first.offset;
+            below.corner = corner;
             world.photons->setGround(below);
         }
         if (!world.photons->tryTrace(sun, world.lights.environment, cutOff, first.medium.extinction, air)) return false;

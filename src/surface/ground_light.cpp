@@ -179,11 +179,20 @@ std::array<glm::dvec2, 2> GroundLight::shaded() const {
         corners = {glm::min(corners[0], grid->lower - spacing + moved),
                    glm::max(corners[1], grid->upper + spacing + moved)};
     }
+    for (const GroundGrid* grid : {&meshes_.sky, &meshes_.added})
+        if (grid->nodes.x > 0) corners = {glm::min(corners[0], grid->lower), glm::max(corners[1], grid->upper)};
+    if (meshes_.sun) corners = {glm::min(corners[0], meshes_.lower), glm::max(corners[1], meshes_.upper)};
     return corners;
 }
 
+void GroundLight::setMeshes(GroundMeshes meshes) {
+    meshes_ = std::move(meshes);
+}
+
 glm::dvec3 GroundLight::directRadiance(const glm::dvec2& place) const {
-    return ground_.albedo / pi * (openSun_ * sun_.at(place - drift_) + openSky_ * sky_.at(place - drift_));
+    return ground_.albedo / pi *
+           (openSun_ * sun_.at(place - drift_) * meshes_.sunAt(place) +
+            openSky_ * sky_.at(place - drift_) * meshes_.sky.at(place) + meshes_.added.at(place));
 }
 
 glm::dvec3 GroundLight::openRadiance() const {
@@ -191,7 +200,7 @@ glm::dvec3 GroundLight::openRadiance() const {
 }
 
 glm::dvec3 GroundLight::radiance(const glm::dvec2& place) const {
-    return directRadiance(place) + ground_.albedo / pi * clouds_.at(place);
+    return directRadiance(place) + ground_.albedo / pi * clouds_.at(place) * meshes_.sky.at(place);
 }
 
 void GroundLight::setClouds(GroundGrid irradiance) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -23,6 +24,16 @@ struct GroundGrid {
     void smooth();
 };
 
+/// What meshes leave of the light on the ground, and what they add.
+struct GroundMeshes {
+    std::function<double(const glm::dvec2&)> sun{};     ///< share of the sun's light that reaches a place; none: all
+    GroundGrid sky{};                                   ///< share of the light of all directions
+    GroundGrid added{{}, {}, {}, {}, glm::vec3(0.0F)};  ///< irradiance by light that they send down [W/m²]
+    glm::dvec2 lower{0.0}, upper{0.0};                  ///< x and z between which shadows of the sun may lie [m]
+
+    double sunAt(const glm::dvec2& place) const { return sun ? sun(place) : 1.0; }
+};
+
 /// Light that falls on the ground of a scene, straight from the sun and straight from the sky, through all that is
 /// above it. Valid for clouds that stay where they are against each other, and at their height.
 class GroundLight {
@@ -34,6 +45,8 @@ class GroundLight {
     void setSun(const query::Media& media, const scene::Sun& sun, double nodes, const Check& check);
     /// Sets the radiance of the sky, which is the same everywhere [W/(m² sr)].
     void setSky(const glm::dvec3& radiance);
+    /// Sets what meshes do, of this sun and sky.
+    void setMeshes(GroundMeshes meshes);
     /// Moves the shadows by so far along x and z from where they were made [m].
     void setDrift(const glm::dvec2& drift) { drift_ = drift; }
 
@@ -57,6 +70,7 @@ class GroundLight {
     glm::dvec2 drift_{0.0};
     GroundGrid sun_, sky_;  ///< shares of it that arrive
     GroundGrid clouds_;     ///< irradiance [W/m²]
+    GroundMeshes meshes_;
 };
 
 }  // namespace lumulus::surface

@@ -24,6 +24,21 @@ gltf = "{name}.glb"
 position = [{x}, 100, 0]
 scale = {scale}
 """
+FOG = """
+[[fog.media]]
+scattering = [0.0019, 0.0019, 0.0019]
+absorption = [0.0001, 0.0001, 0.0001]
+g = 0.6
+top = 400
+bottom = 0
+"""
+THIN = """
+[[cloud]]
+procedural = "sphere"
+resolution = 32
+extinction = 2e-3
+transform = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]
+"""
 CLOUD = """
 [[cloud]]
 procedural = "sphere"
@@ -93,6 +108,64 @@ class Pictures(MeshTest):
         depth = drawn["depth.Z"] - truth["depth.Z"]
         self.assertLess(float(numpy.median(numpy.abs(depth[within]))), 0.05)
 
+    def agrees(self, text, photons, samples, bias, error):
+        """Whether pictures of render and reference agree; those of render."""
+        size = ["--set", "image.width=64", "--set", "image.height=36"]
+        drawn = self.layers("render", text, *size, "--set", f"photon_map.photons={photons}")
+        truths = [
+            self.layers("reference", text, *size, "--spp", samples, "--set", f"photon_map.seed={seed}", name="b.exr")
+            for seed in (1, 2)
+        ]
+        for channel in "RGB":
+            a, b, c = (layers[channel] for layers in (drawn, *truths))
+            mean = (b + c) / 2
+            self.assertLess(abs(numpy.sum(a) / numpy.sum(mean) - 1), bias, channel)
+            self.assertLess(numpy.mean((a - b) * (a - c) / (mean**2 + 1e-4)), error, channel)
+        return drawn
+
+    def test_a_tower_throws_its_shadow_on_the_ground(self):
+        subprocess.run([MESHES, "tower", "-o", self.folder / "tower.glb"], check=True)
+        text = SCENE.format(away=260, sky=[0.11, 0.20, 0.38], sun=[5.0, 4.6, 3.9], elevation=35)
+        text = text.replace("[0, 100, 260], target = [0, 100, 0]", "[60, 90, 200], target = [0, 20, 0]")
+        text += "ground = { height = 0, albedo = [0.3, 0.3, 0.3] }\n"
+        text += BALL.format(name="tower", x=0, scale=1).replace("100", "0")
+        drawn = self.agrees(text, 1000, "256", 0.003, 3e-3)
+        shaded = drawn["G"][drawn["mesh.id"] == 0]
+        self.assertLess(numpy.min(shaded), 0.5 * numpy.median(shaded))
+
+    def test_a_ball_throws_its_shadow_into_fog(self):
+        self.ball("grey", radius=40)
+        text = SCENE.format(away=300, sky=[0.05, 0.05, 0.05], sun=[5.0, 4.6, 3.9], elevation=60)
+        text = text.replace("[0, 100, 300], target = [0, 100, 0]", "[0, 60, 300], target = [0, 60, 0]")
+        text = text.replace("azimuth = 120", "azimuth = 90").replace("fov = 30", "fov = 40")
+        text += "ground = { height = 0, albedo = [0.3, 0.3, 0.3] }\n" + FOG.replace("400", "120")
+        text += BALL.format(name="grey", x=60, scale=1).replace("100", "180")
+        self.agrees(text, 1000, "512", 0.012, 1e-3)
+
+    def test_a_ball_throws_its_shadow_on_a_thin_cloud(self):
+        """Most of the middle of a cloud that scatters light about once lies in the shadow of a black ball out of view."""
+        self.ball("black", radius=40, colour="0,0,0", metallic=1)
+        text = SCENE.format(away=250, sky=[0, 0, 0], sun=[5, 5, 5], elevation=60).replace("azimuth = 120", "azimuth = 90")
+        text = text.replace("[0, 100, 250], target = [0, 100, 0]", "[0, 110, 250], target = [0, 110, 0]") + THIN
+        shade = BALL.format(name="black", x=120, scale=2).replace("100, 0]", "308, 0]")
+        seen = {
+            "lit": self.layers("render", text),
+            "shaded": self.layers("render", text + shade),
+            "truth": self.layers("reference", text + shade, "--spp", "4096", name="b.exr"),
+        }
+        inside = {name: layers["G"].reshape(24, 32)[4:20, 13:19].sum() for name, layers in seen.items()}
+        self.assertLess(inside["shaded"], 0.7 * inside["lit"])
+        self.assertLess(abs(inside["shaded"] - inside["truth"]), 0.05 * inside["lit"])
+
+    def test_a_tower_in_fog_with_a_lamp(self):
+        subprocess.run([MESHES, "tower", "-o", self.folder / "tower.glb"], check=True)
+        text = SCENE.format(away=260, sky=[0, 0, 0], sun=[0, 0, 0], elevation=35)
+        text = text.replace("[0, 100, 260], target = [0, 100, 0]", "[150, 60, 260], target = [0, 55, 0]")
+        text += "ground = { height = 0, albedo = [0.3, 0.3, 0.3] }\n" + FOG
+        text += BALL.format(name="tower", x=0, scale=1).replace("100", "0")
+        text += "[[lamp]]\npower = [20000, 18000, 14000]\nposition = [40, 60, 60]\nradius = 0.5\n"
+        self.agrees(text, 400000, "512", 0.02, 1e-2)
+
     def test_a_mesh_ends_the_clouds_behind_it(self):
         """A large ball in front of a cloud shows the same as without the cloud, but for the cloud's light; one behind it
         is hidden."""
@@ -135,7 +208,6 @@ class Refusals(MeshTest):
         self.refused(text + BALL.format(name="other", x=0, scale=1), "other.glb does not exist")
         self.refused(text + ball + 'name = "a b"\n', "cannot be the name of a mesh")
         self.refused(text + ball, "billboards are not drawn among meshes", "--set", "draw.mode=billboards")
-        self.refused(text + ball + "[[lamp]]\npower = [1, 1, 1]\nposition = [0, 200, 0]\n", "lamps do not light meshes")
         (self.folder / "grey.glb").write_bytes(b"glTF and nothing else")
         self.refused(text + ball, "it is no glTF 2.0")
         self.refused(text + ball, "it is no glTF 2.0", "--spp", "1", command="reference")

@@ -97,7 +97,8 @@ shared::LitFogParams LitFog::paramsOf(const Camera& camera, const Tile& tile, co
     params.planetHeight = static_cast<float>(eye.fromMiddle);
     params.up = glm::vec3(eye.up);
     if (setting.groundHeight) params.aboveGround = static_cast<float>(height - *setting.groundHeight);
-    params.casters = static_cast<int>(casters.texels.size()) / shared::CASTER_TEXELS;
+    params.meshes = casters.meshes != nullptr ? 1 : 0;
+    params.casters = static_cast<int>(casters.texels.size()) / shared::CASTER_TEXELS - params.meshes;
     params.inverseShadows = casters.inverseSize;
     params.sky = glm::vec3(setting.sky);
     return params;
@@ -148,6 +149,7 @@ void LitFog::record(gpu::Commands& commands, const frame::Frame& frame, const Ca
          {"onceScattered", *once_, gpu::Sampler::linearClamp},
          {"casters", *casters_},
          {"shadowVolume", casters.volumes != nullptr ? *casters.volumes : noVolume_, gpu::Sampler::linearClamp},
+         {"meshHeights", casters.meshes != nullptr ? *casters.meshes : none_, gpu::Sampler::nearest},
          {"moreLight", *more_},
          {"lessLight", *less_},
          {"Summary", summary_},

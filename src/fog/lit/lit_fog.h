@@ -13,9 +13,11 @@
 namespace lumulus::fog {
 
 /// Clouds that throw shadows into fog: ten texels each (shared/lit_fog.h), and their shadow volumes in one image.
+/// Meshes that do are one more behind them, with a map of their heights.
 struct ShadowCasters {
     std::vector<glm::vec4> texels;
-    const gpu::Image* volumes = nullptr;  ///< null: nothing throws a shadow
+    const gpu::Image* volumes = nullptr;  ///< null: no cloud throws a shadow
+    const gpu::Image* meshes = nullptr;   ///< null: no mesh does
     glm::vec3 inverseSize{1.0F};          ///< of that image, where there are several clouds
 };
 
@@ -31,7 +33,7 @@ class LitFog {
   public:
     /// What a scene has.
     struct Has {
-        bool shadows = false;  ///< of clouds
+        bool shadows = false;  ///< of clouds or meshes
         bool many = false;     ///< clouds
         bool ground = false;   ///< at which rays end
         bool air = false;      ///< in which the fog is

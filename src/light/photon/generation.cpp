@@ -78,7 +78,7 @@ GenerationTracer::GenerationTracer(gpu::Context& context, const MapPart& part, c
                        {&part, nullptr, traceSpirv(),
                         withSurroundings(traceConstants(part.medium.tables, part.medium.albedo, false,
                                                         part.asset->isSparse(), options.air),
-                                         options),
+                                         options, true),
                         part.collectors, part.estimatorBase + shared::estimatorCounts(part.estimates.cells)},
                        options) {}
 
@@ -261,10 +261,15 @@ void GenerationTracer::round(const gpu::Buffer& coefficients) {
                                      {"FogSky", fogSky_},
                                      {"CollisionEstimates", coefficients},
                                      {"GroundLight", ground_ != nullptr ? *ground_ : params_}});
+    const gpu::Binding meshes{"MeshShade", meshes_ != nullptr ? *meshes_ : params_};
     commands_.begin();
     if (starts_) {
-        starts_->record(commands_, bindings, params_.mapped<shared::TraceParams>()[0].stepLimit);
+        std::vector<gpu::Binding> ofStarts = bindings;
+        ofStarts.push_back(meshes);
+        starts_->record(commands_, ofStarts, params_.mapped<shared::TraceParams>()[0].stepLimit);
         bindings.push_back(starts_->binding());
+    } else {
+        bindings.push_back(meshes);
     }
     commands_.pass("trace");
     commands_.fill(collectorCounts_, 0);

@@ -54,6 +54,8 @@ class GenerationTracer {
     /// Lowers the photons of the generations from now on. `photons` is at least 1 and at most what it was.
     /// The ground for the walk; must outlive the tracer. Before the first generation of a map with one.
     void setGround(const gpu::Buffer& ground) { ground_ = &ground; }
+    /// What meshes shade of the sun (shared::MeshShadeParams and heights); as above.
+    void setMeshes(const gpu::Buffer& meshes) { meshes_ = &meshes; }
     /// Edges of the walk's cells in the world, columns [m].
     glm::dmat3 cellsToWorld() const;
 
@@ -79,6 +81,7 @@ class GenerationTracer {
     std::uint32_t recordCapacity_;
     glm::dmat3 faceArea_;
     const gpu::Buffer* ground_ = nullptr;
+    const gpu::Buffer* meshes_ = nullptr;
 
     gpu::Program<gpu::NoPush> traceProgram_;
     std::optional<PhotonStarts> starts_;  ///< of several clouds

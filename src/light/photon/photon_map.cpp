@@ -182,6 +182,14 @@ void PhotonMap::setGround(const Ground& ground) {
     s.tracer.setGround(s.groundWalk->buffer());
 }
 
+void PhotonMap::setMeshes(const gpu::Buffer& meshes) {
+    state_->tracer.setMeshes(meshes);
+}
+
+glm::dmat3 PhotonMap::cellsToWorld() const {
+    return state_->tracer.cellsToWorld();
+}
+
 std::vector<glm::vec3> PhotonMap::groundLight() {
     return state_->groundWalk->download(light());
 }

@@ -35,6 +35,7 @@ struct Options {
     /// noisy a picture of all is. Not with a ring.
     bool splitGenerations = false;
     bool ground = false;  ///< whether there is a ground below the clouds, see setGround()
+    bool meshes = false;  ///< whether meshes stand before the sun, see setMeshes()
     std::uint64_t memoryBudget = std::uint64_t{1} << 30U;  ///< bytes for all coefficients
     bool air = false;             ///< whether the light differs by direction or height: of an atmosphere, fog or a map
     bool fog = false;             ///< whether it is that of fog
@@ -124,6 +125,11 @@ class PhotonMap {
     void place(std::span<const Placement> places);
     /// The ground for the next generations; before the first one of a map with `Options::ground`, after place().
     void setGround(const Ground& ground);
+    /// What meshes shade of the sun (shared::MeshShadeParams and heights), for a map with `Options::meshes`; as above.
+    /// The buffer outlives the next generations.
+    void setMeshes(const gpu::Buffer& meshes);
+    /// Edges of the cells of the walk [m].
+    glm::dmat3 cellsToWorld() const;
     /// Light of the clouds that falls on the cells of the ground, the mean over the ring [W]: RGB, x fastest. For a map
     /// with `Options::ground`.
     std::vector<glm::vec3> groundLight();

@@ -33,7 +33,7 @@ PhotonStarts::PhotonStarts(gpu::Context& context, const WorldWalk& walk, const O
       invocations_(invocations),
       most_(startsFor(options, invocations)),
       program_(context, "start_world", spirv::start_world_comp,
-               withSurroundings({gpu::SpecConstant::of(5, options.air)}, options)),
+               withSurroundings({gpu::SpecConstant::of(5, options.air)}, options, true)),
       starts_(context, "photon starts", std::uint64_t{shared::START_TEXELS} * most_ * invocations,
               VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Memory::device) {}
 
@@ -44,7 +44,7 @@ void PhotonStarts::record(gpu::Commands& commands, const std::vector<gpu::Bindin
     std::vector<gpu::Binding> wanted = walk_.entryBindings();
     wanted.push_back(binding());
     for (const gpu::Binding& one : bindings)
-        for (const char* name : {"Params", "States", "SkyCells", "SunColours", "FogSky", "GroundLight"})
+        for (const char* name : {"Params", "States", "SkyCells", "SunColours", "FogSky", "GroundLight", "MeshShade"})
             if (one.name == name) wanted.push_back(one);
     commands.pass("photon starts");
     commands.dispatch(program_, wanted, {}, gpu::linearGroups(std::uint64_t{each} * invocations_, 64));

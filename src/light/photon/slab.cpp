@@ -144,7 +144,8 @@ class Layer {
                             {"SunColours", inverseCdf_},
                             {"FogSky", inverseCdf_},
                             {"CollisionEstimates", counters_},
-                            {"GroundLight", params_}},
+                            {"GroundLight", params_},
+                            {"MeshShade", params_}},
                            {}, gpu::linearGroups(lanes, 64));
         commands_.submit();
         commands_.wait();

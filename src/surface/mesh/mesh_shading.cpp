@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "surface/mesh/normal_axes.h"
+
 namespace lumulus::surface {
 namespace {
 
@@ -28,23 +30,10 @@ glm::dvec2 spread(const MeshSample& sample, std::uint32_t i, std::uint32_t purpo
                       glm::dvec2(scattered(sample.pixel, 2 * purpose), scattered(sample.pixel, 2 * purpose + 1)));
 }
 
-/// Axes with a normal as the third one.
-struct Axes {
-    glm::dmat3 columns;
-
-    explicit Axes(const glm::dvec3& normal) {
-        const glm::dvec3 aside = std::abs(normal.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
-        const glm::dvec3 x = glm::normalize(glm::cross(aside, normal));
-        columns = glm::dmat3(x, glm::cross(normal, x), normal);
-    }
-    glm::dvec3 into(const glm::dvec3& v) const { return v * columns; }
-    glm::dvec3 outOf(const glm::dvec3& v) const { return columns * v; }
-};
-
 /// A direction into the disc of the sun.
 glm::dvec3 towardsDisc(const MeshLight& light, const glm::dvec2& u) {
     const double away = std::sin(light.sunRadius) * std::sqrt(u.x), turn = 2.0 * pi * u.y;
-    return Axes(light.toSun).outOf({away * std::cos(turn), away * std::sin(turn), std::sqrt(1.0 - away * away)});
+    return NormalAxes(light.toSun).outOf({away * std::cos(turn), away * std::sin(turn), std::sqrt(1.0 - away * away)});
 }
 
 std::uint32_t countOf(const MeshSample& sample) {
@@ -87,7 +76,7 @@ std::vector<glm::dvec3> MeshShading::sunlight(std::span<const MeshSample> sample
         const glm::dvec3 toSun =
             towardsDisc(light_, spread(sample, sample.first * (sample.directions / sample.step), 1));
         if (!(glm::dot(toSun, sample.point.faceNormal) > 0.0)) continue;
-        const Axes axes(sample.point.normal);
+        const NormalAxes axes(sample.point.normal);
         const glm::dvec3 share =
             material::Reflection(sample.point.material, energy_).reflected(axes.into(sample.toEye), axes.into(toSun));
         if (share == glm::dvec3(0.0)) continue;
@@ -107,7 +96,7 @@ std::vector<glm::dvec3> MeshShading::sunlight(std::span<const MeshSample> sample
 
 /// Light of the surroundings that reaches a point seen by another one, by one direction.
 glm::dvec3 MeshShading::beyond(const MeshSample& sample) const {
-    const Axes axes(sample.point.normal);
+    const NormalAxes axes(sample.point.normal);
     const material::Reflection reflection(sample.point.material, energy_);
     const glm::dvec3 view = axes.into(sample.toEye);
     const material::LightSample drawn = reflection.sample(view, spread(sample, sample.first, 3));
@@ -125,7 +114,7 @@ void MeshShading::gather(std::span<const MeshSample> samples, std::vector<glm::d
     std::vector<shared::MeshRay> rays(starts.back());
     tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
         const MeshSample& sample = samples[i];
-        const Axes axes(sample.point.normal);
+        const NormalAxes axes(sample.point.normal);
         const material::Reflection reflection(sample.point.material, energy_);
         const glm::dvec3 view = axes.into(sample.toEye);
         for (std::size_t k = starts[i]; k < starts[i + 1]; ++k) {
@@ -166,6 +155,21 @@ void MeshShading::gather(std::span<const MeshSample> samples, std::vector<glm::d
     const std::vector<glm::dvec3> lit = sunlight(met, run, check);
     for (std::size_t i = 0; i < met.size(); ++i)
         radiance[ways[metBy[i]].sample] += ways[metBy[i]].weight * (met[i].point.emission + lit[i] + beyond(met[i]));
+    addLamps(met, [&](std::size_t i, const glm::dvec3& lamps) {
+        radiance[ways[metBy[i]].sample] += ways[metBy[i]].weight * lamps;
+    });
+}
+
+/// Tells of the light of lamps at each sample.
+template <class Add>
+void MeshShading::addLamps(std::span<const MeshSample> samples, const Add& add) const {
+    if (!light_.lamps) return;
+    std::vector<glm::dvec3> lit(samples.size());
+    tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
+        stopIfInterrupted();
+        lit[i] = light_.lamps->at(samples[i].point, samples[i].toEye, energy_);
+    });
+    for (std::size_t i = 0; i < samples.size(); ++i) add(i, lit[i]);
 }
 
 std::vector<glm::dvec3> MeshShading::shade(std::span<const MeshSample> samples, const RunGpu& run, const Check& check) {
@@ -181,6 +185,7 @@ std::vector<glm::dvec3> MeshShading::shade(std::span<const MeshSample> samples, 
         std::vector<glm::dvec3> radiance = sunlight(part, run, check);
         for (std::size_t i = 0; i < part.size(); ++i) radiance[i] += part[i].point.emission;
         gather(part, radiance, run, check);
+        addLamps(part, [&](std::size_t i, const glm::dvec3& lamps) { radiance[i] += lamps; });
         all.insert(all.end(), radiance.begin(), radiance.end());
         first = end;
     }

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "prefilter/cube_map.h"
 #include "surface/material/energy.h"
+#include "surface/mesh/lamp_shading.h"
 #include "surface/mesh/ray_tracer.h"
 #include "surface/mesh/sun_field.h"
 
@@ -17,7 +19,8 @@ struct MeshLight {
     prefilter::CubeMap around;  ///< sky, clouds, fog and ground about the middle of all meshes, without the sun
     SunField sun;
     glm::dvec3 toSun{0.0, 1.0, 0.0};
-    double sunRadius = 0.0;  ///< of its disc, radians
+    double sunRadius = 0.0;                      ///< of its disc, radians
+    std::shared_ptr<const LampShading> lamps{};  ///< null: none shines
 };
 
 /// A point that is seen.
@@ -51,6 +54,8 @@ class MeshShading {
                 const Check& check);
     shared::MeshRay rayFrom(const MeshPoint& point, const glm::dvec3& direction) const;
     glm::dvec3 around(const glm::dvec3& direction, double density, std::uint32_t directions) const;
+    template <class Add>
+    void addLamps(std::span<const MeshSample> samples, const Add& add) const;
     glm::dvec3 beyond(const MeshSample& sample) const;
 
     const MeshScene& scene_;

@@ -101,6 +101,26 @@ MeshPoint MeshScene::at(const shared::MeshHit& hit, const glm::dvec3& direction)
     return point;
 }
 
+std::optional<MeshMeeting> MeshScene::meet(const Ray& ray, double metres, int fromInstance, int fromTriangle) const {
+    constexpr int mostHoles = 64;  // that a ray goes through, one behind the other
+    // from where it enters the sphere around all meshes: floats have few digits far away
+    const glm::dvec3 from = ray.origin - world.middle;
+    const double around = 1.001 * static_cast<double>(world.reach()), along = -glm::dot(from, ray.direction);
+    const double skipped = std::max(0.0, along - around), most = std::min(metres, along + around);
+    if (glm::length(glm::cross(from, ray.direction)) > around || most <= skipped) return std::nullopt;
+    shared::MeshRay rest{glm::vec3(from + skipped * ray.direction), 0.0F,         glm::vec3(ray.direction),
+                         static_cast<float>(most - skipped),        fromInstance, fromTriangle};
+    for (int hole = 0; hole < mostHoles; ++hole) {
+        const shared::MeshHit hit = bvh::nearest(world, rest);
+        if (hit.instance < 0) return std::nullopt;
+        if (!masked || isThere(hit)) return MeshMeeting{hit, skipped + static_cast<double>(hit.distance)};
+        rest.least = hit.distance;
+        rest.fromInstance = hit.instance;
+        rest.fromTriangle = hit.triangle;
+    }
+    return std::nullopt;
+}
+
 bool MeshScene::isThere(const shared::MeshHit& hit) const {
     const Place place = placeOf(*this, hit);
     if (!place.material->masked()) return true;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "mesh/bvh/world.h"
 #include "mesh/placed.h"
 #include "surface/material/material.h"
+#include "view/camera.h"
 
 namespace lumulus::surface {
 
@@ -19,6 +21,12 @@ struct MeshPoint {
     int triangle = -1;         ///< as shared::MeshHit has it
 };
 
+/// Where a ray meets a mesh.
+struct MeshMeeting {
+    shared::MeshHit hit;
+    double metres = 0.0;  ///< from the ray's origin
+};
+
 /// The meshes of a scene with their trees. It never changes.
 struct MeshScene {
     mesh::Placed placed;
@@ -31,6 +39,9 @@ struct MeshScene {
 
     /// Where a ray along `direction` meets what `hit` says. `hit.instance` ≥ 0.
     MeshPoint at(const shared::MeshHit& hit, const glm::dvec3& direction) const;
+    /// What a ray meets first up to `metres`, on the host, holes of masks left out. The triangle that it leaves does
+    /// not count; −1: none.
+    std::optional<MeshMeeting> meet(const Ray& ray, double metres, int fromInstance = -1, int fromTriangle = -1) const;
     /// Whether the mask of the material has no hole there.
     bool isThere(const shared::MeshHit& hit) const;
 };
