@@ -136,17 +136,18 @@ ReadClouds ErrorOfPicture::reader() {
 /// Unasked, a picture has so many paths in all and in a pixel, and about so many scattering events at most.
 ErrorOfPicture::Plan ErrorOfPicture::planOf(const LayeredImage& image, const scene::Scene& scene,
                                             std::span<const CloudSummary> clouds, bool timed) const {
-    if (options_.correct) return {true, options_.paths.value_or(0), 0};
+    if (options_.correct) return {true, options_.paths.value_or(0), 0, 0.0};
     if (options_.uncorrected || timed || quality_ == scene::Quality::draft ||
         !(std::ranges::any_of(clouds, &CloudSummary::inexact) || hasLampsInFog(scene)))
         return {};
     const bool best = quality_ == scene::Quality::final;
     const std::uint64_t least = (best ? 32 : 8) * image.pixels(), most = (best ? 1024 : 256) * image.pixels();
     const std::uint64_t paths = std::clamp<std::uint64_t>(best ? 8'000'000 : 1'000'000, least, most);
-    const Plan plan{true, paths, 50 * paths};
+    // 0.01 in thick fog among lamps, 0.005 where paths find next to nothing of the light
+    // (docs/experiments/correction.md)
+    const Plan plan{true, paths, 25 * paths, 0.008};
     // before paths are counted there is a round of two a pixel
-    if (2.0 * static_cast<double>(image.pixels()) * scatteringsOf(scene, clouds) >
-        4.0 * static_cast<double>(plan.events))
+    if (2.0 * static_cast<double>(image.pixels()) * scatteringsOf(scene, clouds) > static_cast<double>(plan.events))
         return {};
     return plan;
 }
@@ -171,8 +172,8 @@ void ErrorOfPicture::measure(LayeredImage& image, const scene::Scene& scene, std
     }
     if (plan.correct) {
         Part part(steps_, "correction");
-        correction_ =
-            reference::correct(image, paths, {scene.photonMap.seed, seconds, plan.paths, plan.events}, std::ref(part));
+        correction_ = reference::correct(
+            image, paths, {scene.photonMap.seed, seconds, plan.paths, plan.events, plan.leastEvenness}, std::ref(part));
         // their paths have nothing in common
         if (correction_ && probes) {
             before_ = error_;
@@ -192,7 +193,7 @@ void ErrorOfPicture::note(LayeredImage& image) const {
         image.attributes["error.relmse_sigma"] = text(error_->relMseSigma);
         image.attributes["error.paths"] = std::to_string(error_->paths);
     }
-    if (correction_)
+    if (correction_ && correction_->made)
         image.attributes["error.corrected"] =
             fmt::format("R, G, B and cloud.* are corrected by {} unbiased paths{}", correction_->paths,
                         before_ ? "; before: " + inWords(*before_) : "");
@@ -209,16 +210,14 @@ void ErrorOfPicture::addTo(nlohmann::ordered_json& statistics) const {
         error["paths"] = error_->paths;
         error["lost"] = error_->lost;
         error["seconds"] = error_->seconds;
-        error["corrected"] = correction_.has_value();
+        error["corrected"] = correction_ && correction_->made;
         if (before_) error["before"] = measuresJson(*before_);
         error["blocks"] = blocksJson(*error_);
     }
     if (correction_)
-        statistics["correction"] = {{"pixels", correction_->pixels},
-                                    {"paths", correction_->paths},
-                                    {"events", correction_->events},
-                                    {"lost", correction_->lost},
-                                    {"seconds", correction_->seconds}};
+        statistics["correction"] = {{"made", correction_->made},   {"pixels", correction_->pixels},
+                                    {"paths", correction_->paths}, {"events", correction_->events},
+                                    {"lost", correction_->lost},   {"seconds", correction_->seconds}};
 }
 
 void ErrorOfPicture::tellLost() const {
@@ -235,7 +234,10 @@ void ErrorOfPicture::tell(bool quiet) const {
     if (nothingToSee_) return logWarning("no pixel shows a cloud or fog: the picture has no error to measure");
     tellLost();
     if (quiet) return;
-    if (correction_)
+    if (correction_ && !correction_->made)
+        logNote(fmt::format("not corrected: few of {} paths carry most of the light, so that they may lack much of it",
+                            correction_->paths));
+    else if (correction_)
         logNote(fmt::format("corrected by {} paths ({} a pixel) in {:.2f} s{}", correction_->paths,
                             correction_->paths / correction_->pixels, correction_->seconds,
                             before_ ? "; before: " + inWords(*before_) : ""));

@@ -58,6 +58,7 @@ class ErrorOfPicture {
     struct Plan {
         bool correct = false;
         std::uint64_t paths = 0, events = 0;  ///< 0: as asked
+        double leastEvenness = 0.0;           ///< reference::CorrectionOrder's
     };
 
     Plan planOf(const LayeredImage& image, const scene::Scene& scene, std::span<const CloudSummary> clouds,

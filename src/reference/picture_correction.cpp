@@ -96,8 +96,17 @@ class Film {
     }
 
     Correction told() const {
-        Correction told{pixels_.size(), each_ * pixels_.size(), events_, 0, 0.0};
-        for (const Sums& sums : sums_) told.lost += static_cast<std::uint64_t>(sums.lost);
+        Correction told;
+        told.pixels = pixels_.size();
+        told.paths = each_ * pixels_.size();
+        told.events = events_;
+        double light = 0.0, square = 0.0;
+        for (const Sums& sums : sums_) {
+            told.lost += static_cast<std::uint64_t>(sums.lost);
+            light += (sums.radiance.x + sums.radiance.y + sums.radiance.z) / 3.0;
+            square += sums.square;
+        }
+        if (square > 0.0) told.evenness = light * light / square / static_cast<double>(told.paths);
         return told;
     }
 
@@ -160,13 +169,15 @@ std::optional<Correction> correct(LayeredImage& picture, const PixelPaths& paths
     if (pixels.empty()) return std::nullopt;
     Film film(paths, std::move(pixels), order.seed);
     trace(film, order, seconds, progress);
-    const std::vector<glm::vec3> more = filterDifference(film.mapOf(picture, opacity));
+    Correction told = film.told();
+    told.made = told.evenness >= order.leastEvenness;
+    const std::vector<glm::vec3> more = told.made ? filterDifference(film.mapOf(picture, opacity))
+                                                  : std::vector<glm::vec3>(picture.pixels(), glm::vec3(0.0F));
     for (const std::string prefix : {"", "cloud."}) {
         if (!picture.layers.contains(prefix + "R")) continue;
         Colours colours(picture, prefix);
         for (const std::size_t pixel : film.pixels()) colours.add(pixel, more[pixel]);
     }
-    Correction told = film.told();
     told.seconds = seconds();
     return told;
 }

@@ -18,6 +18,9 @@ struct CorrectionOrder {
     /// With `paths`: no further round of them after so many scattering events, where these are many in each; 0: no
     /// limit.
     std::uint64_t events = 0;
+    /// The picture stays as it is where the effective number of paths, (Σx)²/Σx² of their light x, is a smaller share
+    /// of their number: where few paths carry most of the light, more of it may be missing than their scatter tells.
+    double leastEvenness = 0.0;
 };
 
 /// What a correction was made by.
@@ -27,6 +30,8 @@ struct Correction {
     std::uint64_t lost =
         0;  ///< paths that met the limit of scattering events, whose missing light counts as difference
     double seconds = 0.0;
+    double evenness = 1.0;  ///< as CorrectionOrder has it
+    bool made = true;       ///< false: the picture is as it was, for that reason
 };
 
 /// Called between some thousand paths with the share of the work that is done, 0 to 1; what it throws ends the work.

@@ -5,9 +5,20 @@
 #include <algorithm>
 #include <vector>
 
+#include "cloud/voxel_shape.h"
 #include "render/asset_maker.h"
 
 namespace lumulus {
+
+namespace {
+
+/// Longest over shortest edge.
+double flatness(const glm::dmat3& edges) {
+    const double x = glm::length(edges[0]), y = glm::length(edges[1]), z = glm::length(edges[2]);
+    return std::max({x, y, z}) / cloud::shortestEdge(edges);
+}
+
+}  // namespace
 
 void warnOfBackwardPeaks(const scene::Scene& scene, WorldReport& report) {
     constexpr double thick = 10.0;  // optical depths on average
@@ -37,13 +48,14 @@ void warnOfBackwardPeaks(const scene::Scene& scene, WorldReport& report) {
 }
 
 void warnOfUnresolvedVoxels(const World& world, WorldReport& report) {
-    constexpr double unresolved = 2.0;  // transport optical depths of a voxel
-    constexpr double noticeable = 1.0;  // optical depths on average
+    constexpr double unresolved = 2.0;              // transport optical depths of a voxel
+    constexpr double flat = 4.0, noticeable = 1.0;  // optical depths on average
     bool warned = false;
     for (std::size_t i = 0; i < world.instances.size() && i < report.clouds.size(); ++i) {
         const cloud::Instance& instance = world.instances[i];
         if (instance.asset == nullptr) continue;
-        if (instance.isFlat() && report.clouds[i].meanThickness > noticeable) report.clouds[i].inexact = true;
+        if (flatness(instance.voxelToMetres) >= flat && report.clouds[i].meanThickness > noticeable)
+            report.clouds[i].inexact = true;
         const double depth = reducedExtinction(instance.medium, world.photonMap.bands) * instance.voxelEdge();
         if (!(depth >= unresolved)) continue;
         report.clouds[i].inexact = true;

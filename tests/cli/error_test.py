@@ -85,7 +85,7 @@ class Error(CliTest):
     def test_a_wrong_picture_is_found_and_corrected(self):
         """Where light goes a third of a voxel between two scattering events: six percent too bright."""
         scene = self.scene(SKY + SCENE.replace("0.02", "0.3") + 'phase = { model = "hg", g = 0.0 }\n')
-        wrong = ["--set", "photon_map.photons=20000", "--error-paths", "40000"]
+        wrong = ["--set", "photon_map.photons=20000", "--error-paths", "150000"]
         before, _, error, _ = self.measured(scene, *wrong, "--no-correct")
         self.assertGreater(abs(error["bias"]), 4 * error["bias_sigma"])
         after, header, again, said = self.measured(scene, *wrong, "--correct", quiet=False)

@@ -208,8 +208,13 @@ TEST(PictureCorrection, RepeatsToTheBitAndEndsWhereItHasTo) {
     const Correction few = correctBy(c, 6, 20'000, 100);
     EXPECT_EQ(few.paths, 2 * few.pixels) << "one round has more events than that";
     EXPECT_LT(few.paths, told.paths);
-    const auto stop = [](double) { throw std::runtime_error("stop"); };
+    LayeredImage d = wrong;
     const PixelPaths paths(sunnyScene(), {ball()});
+    EXPECT_GT(told.evenness, 0.1);
+    const Correction uneven = correct(d, paths, {6, 0.0, 20'000, 0, 1.0}, noProgress).value();
+    EXPECT_FALSE(uneven.made);
+    EXPECT_EQ(d.layers, wrong.layers);
+    const auto stop = [](double) { throw std::runtime_error("stop"); };
     EXPECT_THROW(correct(c, paths, {1, 1e9, 0, 0}, stop), std::runtime_error);
     LayeredImage sky = truth();
     for (const std::string channel : {"R", "G", "B"})

@@ -60,6 +60,7 @@ namespace spirv {
 #include "spirv/light/shadow_volume.comp.h"
 #include "spirv/light/shared_shadow.comp.h"
 #include "spirv/mesh/rays.comp.h"
+#include "spirv/mesh/shade_volume.comp.h"
 #include "spirv/photon/accumulate.comp.h"
 #include "spirv/photon/gather.comp.h"
 #include "spirv/photon/ground_counts.comp.h"
@@ -149,6 +150,8 @@ TEST(SharedLayout, Mesh) {
     EXPECT_LAYOUT(rays_comp, MeshHit, distance, instance, triangle, place);
     EXPECT_LAYOUT(march_comp, MeshPixel, radiance, distance, edge);
     EXPECT_PUSH(rays_comp, MeshPush, rays, anyHit);
+    EXPECT_PUSH(shade_volume_comp, MeshVolumePush, toMap, origin, size);
+    EXPECT_LAYOUT(trace_comp, MeshShadeParams, toMap, size);
 }
 
 TEST(SharedLayout, Draw) {
@@ -192,7 +195,7 @@ TEST(SharedLayout, Fog) {
     EXPECT_PUSH(join_comp, FogJoinPush, first, size, clouded, lit);
     EXPECT_LAYOUT(lit_comp, LitFogParams, view, first, toSun, sunIrradiance, sunAcross, eyeHeight, height, levels,
                   media, aboveGround, casters, inverseShadows, sky, airMedia, aboveTop, planetHeight, up, changeSize,
-                  changeNear, changeFar);
+                  changeNear, changeFar, meshes);
     EXPECT_LAYOUT(lit_comp, LitFogSummary, more, less, farthest);
     EXPECT_PUSH(lit_join_comp, FogSpreadPush, view, skyDistance, media, sign_, margin);
     EXPECT_PUSH(margin_comp, FogMarginPush, margin);
