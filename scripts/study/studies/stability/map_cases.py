@@ -16,10 +16,11 @@ def maps(spp):
     for bands in range(1, 9):
         yield against_reference(f"bands {bands}", spp, f"photon_map.bands={bands}", bound=0.15 if bands < 3 else 0.05)
     wide = "the light of one scattering event is summed for small angles only: 15° is what it is made for"
-    uncut = "four bands do not hold a peak that is not cut: the row of six has it"
+    uncut = "four bands do not hold a peak that is not cut: with six the picture is as much too bright"
     for cut, reason in ((0, uncut), (45, wide), (90, wide)):
         yield against_reference(f"forward_cut {cut}°", spp, f"photon_map.forward_cut={cut}", reason=reason)
-    yield against_reference("forward_cut 0°, 6 bands", spp, "photon_map.forward_cut=0", "photon_map.bands=6")
+    yield against_reference("forward_cut 0°, 6 bands", spp, "photon_map.forward_cut=0", "photon_map.bands=6",
+                            reason="nor do six: +10.1 % ± 0.5 with 2 million photons")
     yield against_reference("1 generation", spp, "photon_map.generations=1")
     yield against_reference("4096 generations", spp, "photon_map.generations=4096", "photon_map.photons=40960",
                             "photon_map.bands=3", "cloud.0.resolution=8", "preparation.samples=500", seconds=240)
@@ -60,6 +61,6 @@ def maps(spp):
             f"cloud.0.vdb={path}", "preparation.memory_budget=1", "photon_map.photons=1000")), "-o", lumulus.path("small"),
                                 "--quiet")
         message = done.complaint.strip().replace(str(path), path.name)
-        return Outcome(message, None, done.code == 0 and "1 MiB" in message and "averaged to" in message)
+        return Outcome(message, None, done.code == 0 and "2 MiB" in message and "memory_budget = 3 keeps all" in message)
 
-    yield Case("density over the memory budget", "averaged to fewer voxels; a warning says so with both sizes", averaged)
+    yield Case("density over the memory budget", "some bricks have fewer voxels; a warning says so with both sizes", averaged)

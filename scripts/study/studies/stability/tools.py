@@ -16,6 +16,8 @@ SCENE = """
 [image]
 width = 48
 height = 32
+[sky]
+model = "constant"
 [[cloud]]
 procedural = "sphere"
 resolution = 32
