@@ -7,15 +7,30 @@
 
 #include "reference/metrics.h"
 #include "reference/random.h"
+#include "scene/ephemeris.h"
 #include "view/ground.h"
 
 namespace lumulus::reference {
+namespace {
+
+std::vector<DiscCover> discsOf(const scene::Scene& scene, const AnyTracer& tracer, const Camera& camera) {
+    std::vector<DiscCover> discs;
+    if (!scene.image.background || !tracer.sunny()) return discs;
+    const SunDisc& sun = tracer.sun();
+    discs.emplace_back(camera, scene.sun.refraction ? scene::apparentDirection(scene.sun) : sun.direction(),
+                       sun.radius());
+    if (scene.moon.shines) discs.emplace_back(camera, scene.moon.directionTo, sun.radius());
+    return discs;
+}
+
+}  // namespace
 
 PixelPaths::PixelPaths(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes)
     : camera_(makeCamera(scene.camera, scene.image, boundsOf(volumes))),
       tracer_(groundedScene(scene, boundsOf(volumes)), volumes, Majorant::local),
       skyUnit_(scene.image.background ? tracer_.skyUnit() : glm::dvec3(0.0)),
       lamps_(scene, camera_),
+      discs_(discsOf(scene, tracer_, camera_)),
       fog_(!scene.fog.media.empty()),
       width_(static_cast<std::size_t>(scene.image.width)) {}
 
@@ -34,13 +49,14 @@ std::vector<float> PixelPaths::opacity(const LayeredImage& picture) const {
         opacity[pixel] =
             1.0F - std::min({picture.layers.at("transmittance.R")[pixel], picture.layers.at("transmittance.G")[pixel],
                              picture.layers.at("transmittance.B")[pixel]});
-    if (!fog_) return opacity;
-    const auto disc = picture.layers.find("sun.disc");
     tbb::parallel_for(std::size_t{0}, opacity.size(), [&](std::size_t pixel) {
-        if (disc != picture.layers.end() && disc->second[pixel] > 0.0F) return;
-        const double px = static_cast<double>(pixel % width_) + 0.5, py = static_cast<double>(pixel / width_) + 0.5;
-        const RayIntegrals line = tracer_.integrate(camera_.ray(px, py));
-        opacity[pixel] = std::max(opacity[pixel], static_cast<float>(1.0 - glm::compMin(line.transmittance)));
+        const int x = static_cast<int>(pixel % width_), y = static_cast<int>(pixel / width_);
+        if (std::ranges::any_of(discs_, [&](const DiscCover& disc) { return disc.find(x, y) != nullptr; })) {
+            opacity[pixel] = 0.0F;
+        } else if (fog_) {
+            const RayIntegrals line = tracer_.integrate(camera_.ray(x + 0.5, y + 0.5));
+            opacity[pixel] = std::max(opacity[pixel], static_cast<float>(1.0 - glm::compMin(line.transmittance)));
+        }
     });
     return opacity;
 }

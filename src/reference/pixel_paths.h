@@ -7,6 +7,7 @@
 
 #include "base/image.h"
 #include "reference/any_tracer.h"
+#include "reference/disc_cover.h"
 #include "reference/lamp_covers.h"
 #include "scene/scene.h"
 #include "vdb/placed_volume.h"
@@ -31,8 +32,8 @@ class PixelPaths {
     PixelSample trace(std::size_t pixel, Random& random) const;
 
     /// How opaque clouds and fog are in each pixel of a picture, 0 to 1: by the picture's transmittance, which is that
-    /// of clouds alone, and in a scene with fog as a ray through the pixel's middle finds it. 0 where the sun's disc is
-    /// seen.
+    /// of clouds alone, and in a scene with fog as a ray through the pixel's middle finds it. 0 where the picture shows
+    /// the sun's disc or the moon's, if only through a cloud: no path meets them.
     std::vector<float> opacity(const LayeredImage& picture) const;
 
     /// Whether the scene has fog, whose light is in `R`, `G` and `B` alone.
@@ -45,6 +46,7 @@ class PixelPaths {
     AnyTracer tracer_;
     glm::dvec3 skyUnit_;  ///< AnyTracer's; black where the background is left out
     LampCovers lamps_;
+    std::vector<DiscCover> discs_;  ///< that the picture shows
     bool fog_;
     std::size_t width_;
 };

@@ -130,6 +130,31 @@ TEST(PictureError, FindsAKnownFactor) {
     }
 }
 
+/// The sun's disc outshines the cloud through which it is seen a thousandfold, and no path meets it.
+TEST(PictureError, LeavesTheSunsDiscOut) {
+    scene::Scene scene = sunnyScene();
+    scene.clouds[0].extinction = 0.02;
+    const Camera camera = makeCamera(scene.camera, scene.image, boundsOf({ball()}));
+    scene.sun.directionTo = camera.axes[2];
+    Renderer renderer(scene, {ball()}, Majorant::local, 1);
+    for (int i = 0; i < 512; ++i) renderer.pass(goOn);
+    LayeredImage picture = renderer.picture();
+    const std::vector<float> disc = picture.layers.at("sun.disc");
+    const auto seen = static_cast<std::size_t>(std::ranges::count_if(disc, [](float share) { return share > 0.0F; }));
+    ASSERT_GT(seen, 0U);
+    picture.layers.erase("sun.disc");  // which pictures of photon maps do not have
+    const PixelPaths paths(scene, {ball()});
+    EXPECT_EQ(countedPixels(paths.opacity(picture)).size() + seen, cloudPixels(picture, picture).size());
+    const PictureError error = errorOf(picture, scene, 2, 40'000);
+    EXPECT_LT(error.biasSigma, 0.01);
+    EXPECT_LT(std::abs(error.bias), 4.0 * error.biasSigma);
+
+    const LayeredImage before = picture;
+    ASSERT_TRUE(correct(picture, paths, {3, 0.0, 40'000, 0}, noProgress));
+    for (std::size_t i = 0; i < disc.size(); ++i)
+        EXPECT_TRUE(disc[i] == 0.0F || picture.layers.at("G")[i] == before.layers.at("G")[i]) << i;
+}
+
 /// Two sigma hold in 95 % of the seeds: at least 33 of 40 but once in a thousand times; sigma is what seeds scatter by.
 TEST(PictureError, IsWithinItsBoundsAsOftenAsItSays) {
     constexpr int seeds = 40;
