@@ -98,7 +98,8 @@ json bodyOf(const SceneShown& shown) {
             {"photons_each", shown.photons.photonsEach},
             {"repeat", shown.repeat},
             {"oldest_seconds", shown.oldestSeconds},
-            {"noise", shown.noise ? json(*shown.noise) : json()}};
+            {"noise", shown.noise ? json(*shown.noise) : json()},
+            {"bias", shown.bias ? json{{"value", shown.bias->value}, {"sigma", shown.bias->sigma}} : json()}};
 }
 
 json millisecondsOf(const FrameResult& result, const FrameTimes& times) {

@@ -41,6 +41,7 @@ RenderService::RenderService(const RenderConfig& config, Instruments& instrument
       densities_(instruments, {mutex_, scenes_, outlets_.reply, [this] { wakeAll(); },
                                [this](const SceneSlot& slot) { return step(slot); }}),
       fogs_(config, instruments, {mutex_, scenes_, lights_, outlets_.reply, [this] { wakeAll(); }}),
+      bias_([this] { wakeAll(); }),
       maker_(instruments, {mutex_, scheduler_, scenes_, changes_, encoding_, desk_, lights_, densities_, fogs_,
                            closing_, outlets_.reply, outlets_.encode}),
       desk_(config, instruments, deskHost()) {
@@ -81,6 +82,7 @@ RenderService::~RenderService() {
     queries_.stop();
     fogs_.stop();
     desk_.stop();
+    bias_.stop();
     renderThread_.join();
 }
 
@@ -193,6 +195,27 @@ void RenderService::handQueries() {
     }
 }
 
+/// Begins to measure the error of what the scene shows.
+void RenderService::measure(const SlotPointer& slot) {
+    try {
+        if (std::optional<BiasJob> job = slot->beginBias()) {
+            job->slot = slot;
+            bias_.hand(std::move(*job));
+        }
+    } catch (const std::exception&) {  // pictures go on without it
+    }
+}
+
+/// Gives a scene what was found of its error.
+void RenderService::keepBias() {
+    const std::optional<BiasDesk::Found> found = bias_.take();
+    if (!found) return;
+    const SlotPointer slot = found->slot.lock();
+    if (!slot || !slot->keepBias(found->revision, found->bias)) return;
+    const std::lock_guard lock(mutex_);
+    if (scenes_.holds(slot)) scenes_.publish(*slot);
+}
+
 void RenderService::submit(ClientId client, std::uint64_t id, RenderRequest request, MemoryBudget::Share memory) {
     const auto held = std::make_shared<MemoryBudget::Share>(std::move(memory));
     {
@@ -285,6 +308,8 @@ void RenderService::renderLoop() {
         heartbeat_.step();
         maker_.applyChanges();
         handQueries();
+        keepBias();
+        SlotPointer toMeasure;
         std::vector<SlotPointer> retired;  // end after the lock
         {
             std::unique_lock lock(mutex_);
@@ -306,12 +331,19 @@ void RenderService::renderLoop() {
             if (!starving && !full && !ambient_.presses(now)) job = scheduler_.take(now, revision);
             ambient = !job && !starving && ambient_.any();
             if (!job && !toRefine && !ambient) {
-                heartbeat_.rest();
-                if (due && !full)
-                    wake_.wait_until(lock, *due);
-                else
-                    wake_.wait(lock);
-                continue;
+                const auto [rests, when] =
+                    bias_.isFree() && !closing_ ? scenes_.toMeasure() : std::pair(SlotPointer(), now);
+                const bool waits = due && !full;
+                if (rests && when <= now) {
+                    toMeasure = rests;
+                } else {
+                    heartbeat_.rest();
+                    if (waits || rests)
+                        wake_.wait_until(lock, waits && rests ? std::min(*due, when) : waits ? *due : when);
+                    else
+                        wake_.wait(lock);
+                    continue;
+                }
             }
             rendering_ = true;
         }
@@ -319,6 +351,8 @@ void RenderService::renderLoop() {
             maker_.make(std::move(*job));
         else if (ambient)
             ambient_.step();
+        else if (toMeasure)
+            measure(toMeasure);
         else
             maker_.refine(toRefine, starving || !toRefine->wantsSun());
     }

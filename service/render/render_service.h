@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "service/render/ambient_desk.h"
+#include "service/render/bias_desk.h"
 #include "service/render/density_desk.h"
 #include "service/render/encoding_desk.h"
 #include "service/render/fog_desk.h"
@@ -88,6 +89,8 @@ class RenderService {
     void answer(QueryJob query);
     void submitFrame(Job job);
     void handQueries();
+    void measure(const SlotPointer& slot);
+    void keepBias();
     SceneDesk::Host deskHost();
     void wakeAll();
 
@@ -110,6 +113,7 @@ class RenderService {
     LightDesk lights_;
     DensityDesk densities_;
     FogDesk fogs_;
+    BiasDesk bias_;
     FrameMaker maker_;  // for the render thread
     SceneDesk desk_;    // its threads take the service's lock
     std::thread renderThread_;

@@ -304,7 +304,12 @@ void SceneSlot::noteDrawn(const FrameResult& result, CostModel::Work work, doubl
 SceneShown SceneSlot::shown() const {
     const PhotonState ring = photons();
     const double age = tracedAt_.empty() ? 0.0 : millisecondsSince(tracedAt_.front()) / 1e3;
-    return {scene_.source, ring, age, noise_.relMse(ring.photons()), repeatOverrides(scene_, *renderer_, mediaKeys_)};
+    return {scene_.source,
+            ring,
+            age,
+            noise_.relMse(ring.photons()),
+            biasIsOfNow() && seenReduction_ == 1 ? bias_.value : std::nullopt,
+            repeatOverrides(scene_, *renderer_, mediaKeys_)};
 }
 
 FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {
@@ -331,8 +336,7 @@ FrameResult SceneSlot::draw(const Job& job, const FrameRequest& frame) {
         enlarging = drawViews(looking, views, result.reduction, result);
     }
     looking.of(result.reduction).viewed.drawn(views, renderer_->bounds(), frame.time);
-    seen_ = views;
-    seenReduction_ = result.reduction;
+    noteSeen(views, result.reduction);
     countMemory();
     noteDrawn(result, CostModel::reduced(work, result.reduction, pixels), enlarging);
 

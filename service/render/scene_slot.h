@@ -14,6 +14,7 @@
 #include "render/renderer.h"
 #include "render/shown_densities.h"
 #include "scene/scene.h"
+#include "service/render/bias_desk.h"
 #include "service/render/cloud_edits.h"
 #include "service/render/cost_model.h"
 #include "service/render/exposure_desk.h"
@@ -132,6 +133,14 @@ class SceneSlot {
     /// Irradiance of a plane that faces the sun, then the coefficients of ambient light (AmbientLight) at a point [m].
     /// Ends where it is cancelled. Errors: Cancelled, InputError, TooSlow.
     std::vector<glm::dvec3> ambientAt(const glm::dvec3& point, const std::atomic<bool>* cancelled);
+    /// When the error of the pictures that were drawn last is to be measured, if nothing changes; none where it is
+    /// known or cannot be told.
+    std::optional<Clock::time_point> biasDue() const;
+    /// Draws a small picture of what was drawn last, to be measured; none where densities are too large for paths.
+    /// Errors: Error, TooSlow.
+    std::optional<BiasJob> beginBias();
+    /// Takes what was found for pictures of a revision(). Returns whether frames have it from now on.
+    bool keepBias(std::uint64_t revision, const std::optional<Bias>& found);
     /// Takes what encoding a picture of this scene cost.
     void noteEncoded(Encoding encoding, double milliseconds, std::uint64_t pixels) {
         costs_.encoded(encoding, milliseconds, pixels);
@@ -196,6 +205,16 @@ class SceneSlot {
             for (Looking* looking : {&each.whole, &each.reduced}) looking->viewed.forget();
     }
 
+    /// What is known of the error of pictures of one view.
+    struct KnownBias {
+        std::uint64_t revision = 0;
+        View view;
+        std::optional<Bias> value;
+        std::shared_ptr<std::atomic<bool>> old;  ///< BiasJob's
+    };
+    void noteSeen(const std::vector<View>& views, int reduction);
+    bool biasIsOfNow() const;
+
     RendererOptions options();
     void countMemory() { memory_->resize(heldBytes()); }
     std::vector<View> viewsOf(const std::vector<ViewRequest>& requests) const;
@@ -230,6 +249,9 @@ class SceneSlot {
     std::array<Viewer, 2> viewers_;  ///< the second one of pictures that come within another
     std::vector<View> seen_;         ///< that were drawn last
     int seenReduction_ = 1;
+    std::uint64_t seenRevision_ = 0;
+    Clock::time_point restsSince_;  ///< that views and revision are the same
+    KnownBias bias_;
     double time_ = 0.0;                ///< of the wind, of the picture that is drawn [s]
     std::optional<LightState> light_;  ///< of the renderer
     MediaKeys mediaKeys_;

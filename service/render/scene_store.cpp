@@ -187,4 +187,16 @@ SlotPointer SceneStore::toRefine(Clock::time_point now, std::optional<Clock::tim
     return now + std::chrono::duration<double, std::milli>(step) < std::max(*due, now) ? best : nullptr;
 }
 
+std::pair<SlotPointer, Clock::time_point> SceneStore::toMeasure() const {
+    std::pair<SlotPointer, Clock::time_point> first{nullptr, Clock::time_point::max()};
+    const auto consider = [&](const SlotPointer& slot) {
+        if (const auto due = slot->biasDue(); due && *due < first.second) first = {slot, *due};
+    };
+    for (const SlotPointer& slot : slots_)
+        if (watched(slot)) consider(slot);
+    for (const auto& [client, slot] : own_)
+        if (slot) consider(slot);
+    return first;
+}
+
 }  // namespace lumulus::service

@@ -80,6 +80,9 @@ class SceneStore {
     /// a step before a picture is `due`, or if it starves. The default scene, which newcomers will see, is one of them
     /// where no picture is due. Null where there is none. Only the thread that may use the scenes calls this.
     SlotPointer toRefine(Clock::time_point now, std::optional<Clock::time_point> due) const;
+    /// Of the scenes that are seen, the one the error of whose pictures is to be measured first, and when; null where
+    /// there is none. As above.
+    std::pair<SlotPointer, Clock::time_point> toMeasure() const;
     /// Whether a scene has to get a generation, however busy streams keep the service.
     static bool starves(const SceneSlot& slot, Clock::time_point now);
 

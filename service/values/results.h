@@ -82,11 +82,18 @@ struct ViewResult {
 };
 
 /// What of the scene a frame shows.
+/// How far a picture is too bright (above 0) or too dark in the mean over its clouds and fog, over that mean.
+struct Bias {
+    double value = 0.0;
+    double sigma = 0.0;  ///< standard error of the value
+};
+
 struct SceneShown {
     std::string name;
     PhotonState photons;
     double oldestSeconds = 0.0;       ///< since the oldest generation was traced
     std::optional<double> noise;      ///< estimated relMSE of the photons' noise; absent before it is known
+    std::optional<Bias> bias = {};    ///< of the first view, measured by paths while it rests
     std::vector<std::string> repeat;  ///< values of `render --set` with which the same picture is drawn
 };
 

@@ -20,13 +20,14 @@ export function ownerOfLight(scene, isShared) {
 
 // [what, text] pairs for a frame's reply that came `since` seconds ago.
 export function figuresOf(json, since, owner) {
-    const {current_generations: current, generations, milliseconds, noise, reduction} = json;
+    const {current_generations: current, generations, milliseconds, noise, bias, reduction} = json;
     const traced = current < generations ? `${current} of ${generations} in this light` : String(generations);
     const reduced = reduction > 1 ? ` at 1/${reduction} size` : "";
     return [
         ["samples", `${count(json.photons)} photons`],
         ["generations", traced],
         ["noise", noise === null ? "not known yet" : `${(100 * Math.sqrt(noise)).toFixed(1)} %`],
+        ["bias", bias ? `${(100 * bias.value).toFixed(1)} ± ${(100 * bias.sigma).toFixed(1)} %` : "where it rests"],
         ["age of light", duration(json.oldest_seconds + since)],
         ["frame", `${Math.round(milliseconds.draw + milliseconds.encode)} ms${reduced}`],
         ["light", owner],

@@ -143,9 +143,9 @@ ErrorOfPicture::Plan ErrorOfPicture::planOf(const LayeredImage& image, const sce
     const bool best = quality_ == scene::Quality::final;
     const std::uint64_t least = (best ? 32 : 8) * image.pixels(), most = (best ? 1024 : 256) * image.pixels();
     const std::uint64_t paths = std::clamp<std::uint64_t>(best ? 8'000'000 : 1'000'000, least, most);
-    // 0.01 in thick fog among lamps, 0.005 where paths find next to nothing of the light
+    // 0.01 in thick fog among lamps, 0.005 with the sun behind a cloud that scatters backwards
     // (docs/experiments/correction.md)
-    const Plan plan{true, paths, 25 * paths, 0.008};
+    const Plan plan{true, paths, 25 * paths, 0.002};
     // before paths are counted there is a round of two a pixel
     if (2.0 * static_cast<double>(image.pixels()) * scatteringsOf(scene, clouds) > static_cast<double>(plan.events))
         return {};

@@ -174,6 +174,30 @@ std::size_t BrickField::entryOf(const glm::ivec3& brick) const {
     return nodeEntries * nodes_[numberOf(brick / nodeEdge, nodesOf(count_))] + numberOf(within, glm::ivec3(nodeEdge));
 }
 
+std::optional<vdb::Volume> BrickField::volume(const Check& check) const {
+    if (std::ranges::any_of(bricks_, [](const Brick& brick) { return brick.level > 0; })) return std::nullopt;
+    vdb::Volume volume;
+    volume.size = size_;
+    volume.density.resize(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
+                          static_cast<std::size_t>(size_.z));
+    glm::ivec3 at(0);
+    for (at.z = 0; at.z < size_.z; ++at.z) {
+        check();
+        for (at.y = 0; at.y < size_.y; ++at.y)
+            for (at.x = 0; at.x < size_.x; ++at.x) {
+                const Brick& brick = bricks_[entryOf(at / edge)];
+                float value = brick.low;
+                if (brick.step > 0.0F) {
+                    const std::size_t place = numberOf(at % edge, glm::ivec3(corners));
+                    value += brick.step * static_cast<float>(pool_[valuesOfBrick * brick.values + place]);
+                }
+                volume.density[volume.index(at.x, at.y, at.z)] = value;
+                volume.maximum = std::max(volume.maximum, value);
+            }
+    }
+    return volume;
+}
+
 std::uint64_t BrickField::bytes() const {
     return nodes_.size() * sizeof(std::uint32_t) + bricks_.size() * sizeof(Brick) +
            pool_.size() * sizeof(std::uint16_t);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -45,6 +46,9 @@ class BrickField {
     explicit BrickField(vdb::SparseVolume& volume, const Check& check = stopIfInterrupted);
 
     const glm::ivec3& size() const { return size_; }  ///< voxels
+    /// All voxels, for what does not know bricks; at its own place. None where some bricks are coarser. Errors: what
+    /// `check` throws.
+    std::optional<vdb::Volume> volume(const Check& check = stopIfInterrupted) const;
     std::uint64_t bytes() const;
 
     /// ∫ density dt along the line between two distances [m], 0 where `begin` is not below `end`. Between planes of

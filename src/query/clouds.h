@@ -29,6 +29,12 @@ struct PlacedField {
     double extinction = 0.0;  ///< 1/m at density 1
 };
 
+/// The same of a cloud of a scene.
+struct CloudField {
+    std::size_t cloud = 0;  ///< its number in the scene
+    PlacedField placed;
+};
+
 /// A box along the axes of the world, metres.
 struct Extent {
     glm::dvec3 lower{0.0}, upper{0.0};

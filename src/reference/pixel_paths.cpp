@@ -26,13 +26,17 @@ std::vector<DiscCover> discsOf(const scene::Scene& scene, const AnyTracer& trace
 }  // namespace
 
 PixelPaths::PixelPaths(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes)
-    : camera_(makeCamera(scene.camera, scene.image, boundsOf(volumes))),
+    : PixelPaths(scene, volumes, makeCamera(scene.camera, scene.image, boundsOf(volumes)), scene.image) {}
+
+PixelPaths::PixelPaths(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, const Camera& camera,
+                       const scene::Image& image)
+    : camera_(camera),
       tracer_(groundedScene(scene, boundsOf(volumes)), volumes, Majorant::local),
       skyUnit_(scene.image.background ? tracer_.skyUnit() : glm::dvec3(0.0)),
       lamps_(scene, camera_),
       discs_(discsOf(scene, tracer_, camera_)),
       fog_(!scene.fog.media.empty()),
-      width_(static_cast<std::size_t>(scene.image.width)) {}
+      width_(static_cast<std::size_t>(image.width)) {}
 
 PixelSample PixelPaths::trace(std::size_t pixel, Random& random) const {
     const auto x = static_cast<int>(pixel % width_), y = static_cast<int>(pixel / width_);

@@ -28,6 +28,10 @@ class PixelPaths {
     /// `volumes` are those of the scene's clouds with all their values, read here only. Errors: those of AnyTracer.
     PixelPaths(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes);
 
+    /// Of pictures from another camera than the scene's.
+    PixelPaths(const scene::Scene& scene, const std::vector<vdb::PlacedVolume>& volumes, const Camera& camera,
+               const scene::Image& image);
+
     /// A path through a random point of a pixel, counted row by row from the upper left corner.
     PixelSample trace(std::size_t pixel, Random& random) const;
 

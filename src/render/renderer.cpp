@@ -365,6 +365,10 @@ query::Media Renderer::media() {
     return mediaOf(state_->context, *state_->world, stopIfInterrupted);
 }
 
+std::vector<query::CloudField> Renderer::fields() {
+    return fieldsOf(state_->context, *state_->world, stopIfInterrupted);
+}
+
 Statistics Renderer::statistics() const {
     const auto& photons = state_->world->photons;
     Statistics result = finished(state_->statistics, photons ? &*photons : nullptr);

@@ -239,6 +239,8 @@ class Renderer {
     /// What light meets in the world as it is now, for questions without a picture; its own copy but for densities,
     /// which are immutable. The first call reads densities back from the device.
     query::Media media();
+    /// The clouds of now by their number in the scene, as above, for paths that measure the error of a picture.
+    std::vector<query::CloudField> fields();
     /// What the photons have left in the leaves of all clouds, once they are traced; none where no photon is needed.
     std::vector<photon::LeafLight> leafLight();
     /// Sun, or moon where that is brighter, as it reaches a point through fog and air, but for clouds.

@@ -99,6 +99,13 @@ query::Media straightMediaOf(gpu::Context& context, World& world, const Check& c
     });
 }
 
+std::vector<query::CloudField> fieldsOf(gpu::Context& context, World& world, const Check& check) {
+    std::vector<query::PlacedField> placed = placedFields(context, world, check, wholeExtinction);
+    std::vector<query::CloudField> fields;
+    for (const std::size_t i : world.visible()) fields.push_back({i, std::move(placed[fields.size()])});
+    return fields;
+}
+
 std::vector<lamp::Cloud> cloudsForLamps(gpu::Context& context, World& world, const Check& check) {
     std::vector<query::PlacedField> placed = placedFields(context, world, check, wholeExtinction);
     std::vector<lamp::Cloud> clouds;

@@ -15,6 +15,9 @@ query::Media mediaOf(gpu::Context& context, World& world, const Check& check);
 /// as no channel absorbs it.
 query::Media straightMediaOf(gpu::Context& context, World& world, const Check& check);
 
+/// The clouds of a world that have a density, read back as above. Errors: as above.
+std::vector<query::CloudField> fieldsOf(gpu::Context& context, World& world, const Check& check);
+
 /// The clouds of a world as lamps light them, read back as above. Errors: as above.
 std::vector<lamp::Cloud> cloudsForLamps(gpu::Context& context, World& world, const Check& check);
 
