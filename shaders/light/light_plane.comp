@@ -17,7 +17,7 @@ layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
 /// Added to the variance of the places [cells²], so that slopes are small that few cells tell, and those that are noise: by
 /// how sharp the light may be (light_counts.comp).
-const float LEAST_RIDGE = 0.02, RIDGE = 2.0;
+const float LEAST_RIDGE = 0.02, RIDGE = 8.0;
 
 void main() {
     const uint entry = linearInvocation(64u);

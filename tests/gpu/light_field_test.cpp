@@ -155,7 +155,7 @@ class LightFieldTest : public test::VulkanTest, public testing::WithParamInterfa
         if (weights == 0.0) return dvec4(0.0);
         const glm::dvec3 mean = glm::dvec3(light) / weights;
         place /= weights;
-        places = places / weights - glm::outerProduct(place, place) + (0.02 + 2.0 / sharpness) * glm::dmat3(1.0);
+        places = places / weights - glm::outerProduct(place, place) + (0.02 + 8.0 / sharpness) * glm::dmat3(1.0);
         const glm::dmat3 slope = (slopes / weights - glm::outerProduct(mean, place)) * glm::inverse(places);
         const glm::dvec3 plane = mean - slope * place;
         const glm::dvec3 own = glm::dvec3(raw.light(cell)) - slope * raw.centre(cell);
