@@ -69,6 +69,29 @@ Beam::Beam(const scene::Lamp& lamp) : lamp_(lamp), outer_(0.5 * lamp.angle * pi 
     perSolidAngle_ = 1.0 / solidAngle;
 }
 
+bool Beam::shinesAs(const Beam& other) const {
+    if (lamp_.kind != other.lamp_.kind) return false;
+    return isPoint() || (lamp_.direction == other.lamp_.direction && lamp_.angle == other.lamp_.angle &&
+                         lamp_.softness == other.lamp_.softness);
+}
+
+Beam Beam::inPlaceOfMore(const glm::dvec3& position, const glm::dvec3& power, double radius) const {
+    Beam result(*this);
+    result.lamp_.position = position;
+    result.lamp_.power = power;
+    result.lamp_.radius = radius;
+    result.shade_ = result.solids_ = DepthMap();
+    result.shadedAs_ = this;
+    return result;
+}
+
+Beam Beam::everywhere() const {
+    scene::Lamp lamp = lamp_;
+    lamp.kind = scene::LampKind::point;
+    lamp.power *= 4.0 * pi * perSolidAngle_;
+    return Beam(lamp);
+}
+
 double Beam::share(const glm::dvec3& direction) const {
     if (lamp_.kind == scene::LampKind::point) return perSolidAngle_;
     return lamp_.kind == scene::LampKind::spot ? spotShare(direction) : pyramidShare(direction);

@@ -19,6 +19,19 @@ class Beam {
     const glm::dvec3& position() const { return lamp_.position; }
     double radius() const { return lamp_.radius; }
     const glm::dvec3& power() const { return lamp_.power; }
+    const glm::dvec3& direction() const { return lamp_.direction; }
+    /// Largest angle between its axis and light of it [radians].
+    double widest() const { return widest_; }
+    /// Angle over which it fades towards its sides, or sine of that [radians].
+    double fading() const { return outer_ - inner_; }
+
+    /// Whether another lamp sends the same share of its power into each direction.
+    bool shinesAs(const Beam& other) const;
+    /// One with the power of several lamps that shine as this one. It stands in the shade that this one stands in,
+    /// which outlives it.
+    Beam inPlaceOfMore(const glm::dvec3& position, const glm::dvec3& power, double radius) const;
+    /// A point lamp as bright everywhere as this one at its brightest. It stands in no shade.
+    Beam everywhere() const;
 
     /// Radiant intensity in a direction away from the lamp [W/sr].
     glm::dvec3 intensity(const glm::dvec3& direction) const { return share(direction) * lamp_.power; }
@@ -36,9 +49,10 @@ class Beam {
     /// Lets solid bodies stand in its light, as above.
     void shadeBy(const Solids& solids, int edge, const Check& check);
     /// Whether clouds or solid bodies may stand in its light.
-    bool isShaded() const { return !shade_.empty() || !solids_.empty(); }
+    bool isShaded() const { return shadedAs_ != nullptr ? shadedAs_->isShaded() : !shade_.empty() || !solids_.empty(); }
     /// Share of the light that clouds and solid bodies let through into a direction up to a distance [m].
     double passed(const glm::dvec3& direction, double distance) const {
+        if (shadedAs_ != nullptr) return shadedAs_->passed(direction, distance);
         const double past = solids_.transmittance(direction, distance);
         return past > 0.0 ? past * shade_.transmittance(direction, distance) : 0.0;
     }
@@ -52,6 +66,7 @@ class Beam {
 
     scene::Lamp lamp_;
     DepthMap shade_, solids_;
+    const Beam* shadedAs_ = nullptr;
     glm::dvec3 level_, rising_;  ///< unit vectors square to the axis; of a pyramid, each square to two sides
     double inner_, outer_;       ///< angles to the axis, or to a plane through it, between which the light fades
     double widest_;              ///< largest angle to the axis

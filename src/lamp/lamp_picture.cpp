@@ -13,7 +13,11 @@
 #include "lamp/beam.h"
 #include "lamp/glow.h"
 #include "lamp/haze.h"
-#include "lamp/once_scattered.h"
+#include "lamp/lamp_tree.h"
+#include "lamp/mean_miss.h"
+#include "lamp/ray_bundle.h"
+#include "lamp/seen_lamps.h"
+#include "lamp/smooth_light.h"
 
 namespace lumulus::lamp {
 
@@ -23,8 +27,8 @@ constexpr double farAway = 1e9;  // metres
 /// Edge of the blocks of pixels in which the light of far lamps is interpolated. They begin at the whole picture's
 /// corner, so that a part of it has the same bits.
 constexpr int block = 8;
-/// Angle between a block and a lamp beyond which its light is interpolated, over the angle of the block's diagonal.
-constexpr double farBlocks = 5.0;
+/// Edge of the largest squares in which light is interpolated.
+constexpr int area = 32;
 
 /// Directions across the map of the shade of a lamp, and those of all maps together.
 constexpr double widestMap = 192.0, narrowestMap = 16.0, allMaps = 192.0 * 192.0 * 8.0;
@@ -39,12 +43,6 @@ struct Disc {
     float hidden = 0.0F;  ///< of what is behind
     double distance = farAway;
 };
-
-/// ∫∫ 1/r over a rectangle, from one corner: the sum over its four corners with alternating signs.
-double inverseOver(double x, double y) {
-    const double ax = std::max(std::abs(x), 1e-12), ay = std::max(std::abs(y), 1e-12);
-    return x * std::asinh(y / ax) + y * std::asinh(x / ay);
-}
 
 class LampPainter {
   public:
@@ -62,6 +60,7 @@ class LampPainter {
         light_.resize(discs_.size(), glm::dvec3(0.0));
         if (!clouds_.empty()) castShadows(check);
         if (solids_ != nullptr) castSolidShadows(check);
+        tree_.emplace(beams_);
         if (around.discs) findDiscs();
     }
 
@@ -70,13 +69,11 @@ class LampPainter {
     bool scatters() const { return !haze_.isClear() || !clouds_.empty(); }
 
     void paint(const Check& check, const Glow* glow) {
-        const int firstRow = tile_.y / block, lastRow = (tile_.y + tile_.height - 1) / block;
-        const int firstColumn = tile_.x / block, lastColumn = (tile_.x + tile_.width - 1) / block;
-        tbb::parallel_for(firstRow, lastRow + 1, [&](int row) {
-            for (int column = firstColumn; column <= lastColumn; ++column) {
-                check();
-                paintBlock({column * block, row * block}, glow);
-            }
+        const int firstRow = tile_.y / area, lastRow = (tile_.y + tile_.height - 1) / area;
+        const int firstColumn = tile_.x / area, lastColumn = (tile_.x + tile_.width - 1) / area;
+        const int columns = lastColumn - firstColumn + 1;
+        tbb::parallel_for(0, (lastRow - firstRow + 1) * columns, [&](int i) {
+            paintArea(area * glm::ivec2(firstColumn + i % columns, firstRow + i / columns), check, glow);
         });
     }
 
@@ -110,10 +107,10 @@ class LampPainter {
     }
 
     /// The light of the ground where a ray sees it.
-    glm::dvec3 groundOf(const Ray& ray) const {
+    glm::dvec3 groundOf(const LampsAlong& lamps, const Ray& ray) const {
         const double metres = groundOn(ray);
-        if (!(metres < farAway) || endOf(ray) < metres) return glm::dvec3(0.0);
-        return groundSeen(ray, metres);
+        if (!(metres < farAway) || ground_->albedo == glm::dvec3(0.0) || endOf(ray) < metres) return glm::dvec3(0.0);
+        return lamps.onGround(*ground_, ray, metres);
     }
 
     /// The end of the ray of a pixel of the tile: a lamp's disc ends it where it covers most of the pixel.
@@ -169,49 +166,20 @@ class LampPainter {
         }
     }
 
-    /// What the ground reflects of lamps where a ray meets it, as it is seen [W/(m² sr)].
-    glm::dvec3 groundSeen(const Ray& ray, double metres) const {
-        const glm::dvec3 point = ray.origin + metres * ray.direction;
-        glm::dvec3 irradiance(0.0);
-        for (const Beam& beam : beams_) {
-            const glm::dvec3 way = beam.position() - point;
-            const double distance = std::max(glm::length(way), beam.radius());
-            if (!(way.y > 0.0)) continue;
-            const glm::dvec3 direction = way / distance, intensity = beam.intensity(-direction);
-            if (intensity == glm::dvec3(0.0)) continue;
-            irradiance += intensity * (direction.y / (distance * distance)) * beam.passed(-direction, distance) *
-                          (haze_.isClear() ? glm::dvec3(1.0) : glm::exp(-haze_.depth({point, direction}, distance)));
-        }
-        return ground_->albedo * std::numbers::inv_pi * irradiance * glm::exp(-haze_.depth(ray, metres));
+    /// Whether some of a pixel's corners see the ground and others do not.
+    bool endsInPart(const glm::ivec2& pixel) const {
+        int grounded = 0;
+        for (int k = 0; k < 4; ++k) grounded += groundOn(rayOf(pixel + glm::ivec2(k % 2, k / 2))) < farAway;
+        return grounded != 0 && grounded != 4;
     }
 
-    glm::dvec3 groundIn(const glm::ivec2& pixel, int rays) const {
+    glm::dvec3 groundIn(const LampsAlong& lamps, const glm::ivec2& pixel, int rays) const {
         glm::dvec3 sum(0.0);
         for (int i = 0; i < rays * rays; ++i) {
             const Ray ray = rayOf(glm::dvec2(pixel) + (glm::dvec2(i % rays, i / rays) + 0.5) / double(rays));
-            sum += groundOf(ray);
+            sum += groundOf(lamps, ray);
         }
         return sum / static_cast<double>(rays * rays);
-    }
-
-    /// The distance at which rays of a square of the picture pass a lamp: one over the mean of its inverse, to which
-    /// light that is scattered near the lamp is proportional. `edge`: of the square around `place`, pixels.
-    double missIn(const glm::dvec2& place, double edge, const Ray& ray, const glm::dvec3& lamp) const {
-        const double miss = missOf(ray, lamp), along = glm::dot(lamp - ray.origin, ray.direction);
-        if (along <= 0.0) return miss;
-        const double half = 0.5 * edge;
-        const auto reach = [&](const glm::dvec2& way) {
-            return (rayOf(place + half * way).direction - rayOf(place - half * way).direction) * along;
-        };
-        const glm::dvec3 right = reach({1.0, 0.0}), down = reach({0.0, 1.0});
-        const double width = glm::length(right), height = glm::length(down);
-        if (miss > 8.0 * std::max(width, height)) return miss;
-        const glm::dvec3 off = lamp - ray.origin - along * ray.direction;
-        const double x = glm::dot(off, right) / width, y = glm::dot(off, down) / height;
-        const double x0 = x - 0.5 * width, x1 = x + 0.5 * width, y0 = y - 0.5 * height, y1 = y + 0.5 * height;
-        const double mean =
-            (inverseOver(x1, y1) - inverseOver(x0, y1) - inverseOver(x1, y0) + inverseOver(x0, y0)) / (width * height);
-        return 1.0 / mean;
     }
 
     /// Light of a beam that is scattered, seen at the corners of the pixels of a block.
@@ -220,20 +188,16 @@ class LampPainter {
         std::array<glm::dvec3, (block + 1) * (block + 1)> values;
     };
 
-    std::vector<BeamCorners> cornersOf(const glm::ivec2& first, const std::vector<const Beam*>& beams) const {
-        std::vector<BeamCorners> all;
-        for (const Beam* beam : beams) {
-            BeamCorners& corners = all.emplace_back(BeamCorners{beam, {}});
-            for (int i = 0; i < (block + 1) * (block + 1); ++i)
-                corners.values[static_cast<std::size_t>(i)] =
-                    beamAt(*beam, glm::dvec2(first + glm::ivec2(i % (block + 1), i / (block + 1))), first, 1.0);
-        }
-        return all;
+    BeamCorners cornersOf(const glm::ivec2& first, const Beam& beam) const {
+        BeamCorners corners{&beam, {}};
+        for (int i = 0; i < (block + 1) * (block + 1); ++i)
+            corners.values[static_cast<std::size_t>(i)] =
+                beamAt(beam, glm::dvec2(first + glm::ivec2(i % (block + 1), i / (block + 1))), first, 1.0);
+        return corners;
     }
 
     glm::dvec3 beamAt(const Beam& beam, const glm::dvec2& place, const glm::ivec2& pixel, double edge) const {
-        const Ray ray = rayOf(place);
-        return onceScattered(haze_, beam, ray, {0.0, endIn(pixel, ray)}, missIn(place, edge, ray, beam.position()));
+        return scatteredIn(picture_, haze_, beam, place, pixel, edge);
     }
 
     /// The mean over a pixel: by more rays where its corners and its middle differ, at the sides of a beam.
@@ -256,37 +220,48 @@ class LampPainter {
         return sum / static_cast<double>(rays * rays);
     }
 
-    void paintBlock(const glm::ivec2& first, const Glow* glow) {
-        std::array<Ray, 4> rays;
-        std::array<double, 4> ends{};
-        for (std::size_t k = 0; k < 4; ++k) {
-            rays[k] = rayOf(glm::dvec2(first) + 0.5 + double(block) * glm::dvec2(k % 2, k / 2));
-            ends[k] = endOf(rays[k]);
-        }
-        const auto grounded = std::ranges::count_if(ends, [](double end) { return end < farAway; });
-        const bool mixed = (grounded != 0 && grounded != 4) || seesSolids(first);
-        if (seesClouds(first)) return paintAmongClouds(first, glow);
-        std::vector<const Beam*> near, beams;
-        std::array<glm::dvec3, 4> far{};
-        if (!haze_.isClear()) {
-            for (const Beam& beam : beams_) {
-                const bool smooth = beam.isPoint() && !beam.isShaded();
-                if (mixed || !smooth || !isFar(beam, rays)) {
-                    (smooth ? near : beams).push_back(&beam);
-                    continue;
-                }
-                for (std::size_t k = 0; k < 4; ++k)
-                    far[k] += onceScattered(haze_, beam, rays[k], {0.0, ends[k]}, missOf(rays[k], beam.position()));
+    /// Light that is smooth is interpolated in larger squares where these are narrow, and show fog alone.
+    void paintArea(const glm::ivec2& first, const Check& check, const Glow* glow) {
+        const glm::ivec2 from = glm::max(glm::ivec2(0), glm::ivec2(tile_.x, tile_.y) - first) / block;
+        const glm::ivec2 last =
+            glm::min(glm::ivec2(area), glm::ivec2(tile_.x + tile_.width, tile_.y + tile_.height) - first);
+        const RayBundle rays = bundleOf(camera_, {first, area}, farAway);
+        const bool whole = solids_ == nullptr && clouds_.empty() && rays.isNarrow();
+        if (whole && !haze_.isClear())
+            addSmoothLight(picture_, haze_, LampsAlong(*tree_, haze_, rays).smooth(), {first, area}, false);
+        for (int y = from.y * block; y < last.y; y += block)
+            for (int x = from.x * block; x < last.x; x += block) {
+                check();
+                paintBlock(first + glm::ivec2(x, y), !whole, glow);
             }
+    }
+
+    void paintBlock(const glm::ivec2& first, bool smoothToo, const Glow* glow) {
+        double end = 0.0;
+        int grounded = 0;
+        for (int k = 0; k < 4; ++k) {
+            const double one = endOf(rayOf(glm::dvec2(first) + 0.5 + double(block) * glm::dvec2(k % 2, k / 2)));
+            end = std::max(end, one);
+            grounded += one < farAway;
         }
-        const std::vector<BeamCorners> corners = cornersOf(first, beams);
+        const bool solid = seesSolids(first), mixed = (grounded != 0 && grounded != 4) || solid;
+        const RayBundle rays = bundleOf(camera_, {first, block}, mixed ? farAway : end);
+        const LampsAlong lamps(*tree_, haze_, rays);
+        if (seesClouds(first)) return paintAmongClouds(first, lamps, glow);
+        std::vector<BeamCorners> corners;
+        if (!haze_.isClear()) {
+            if (smoothToo) addSmoothLight(picture_, haze_, lamps.smooth(), {first, block}, solid);
+            for (const NodeLight& node : lampsInFog(lamps.others(), haze_, rays, 0.0).nodes)
+                corners.push_back(cornersOf(first, *node.node->beam));
+        }
         for (int i = 0; i < block * block; ++i) {
             const glm::ivec2 within(i % block, i / block), pixel = first + within;
             if (!isWanted(pixel)) continue;
-            const glm::dvec2 share = glm::dvec2(within) / double(block);
             glm::dvec3& light = light_[indexOf(pixel)];
-            light += glm::mix(glm::mix(far[0], far[1], share.x), glm::mix(far[2], far[3], share.x), share.y);
-            light += paintPixel(pixel, near, mixed, glow);
+            if (glow != nullptr) light += glow->at(glm::dvec2(pixel) + 0.5, 0.0);
+            if (ground_)
+                light += (1.0 - static_cast<double>(discs_[indexOf(pixel)].share)) *
+                         groundIn(lamps, pixel, solid || endsInPart(pixel) ? 4 : 1);
             for (const BeamCorners& beam : corners) light += beamIn(pixel, within, beam);
         }
     }
@@ -317,9 +292,10 @@ class LampPainter {
         return !parts.empty();
     }
 
-    void paintAmongClouds(const glm::ivec2& first, const Glow* glow) {
+    void paintAmongClouds(const glm::ivec2& first, const LampsAlong& lamps, const Glow* glow) {
         const int rays = raysAmongClouds_;
-        std::vector<PassedBeam> beams(beams_.size());
+        std::vector<PassedBeam> beams;
+        for (const NodeLight& node : lamps.amongClouds().nodes) beams.push_back({node.node->beam, 0.0});
         for (int i = 0; i < block * block; ++i) {
             const glm::ivec2 pixel = first + glm::ivec2(i % block, i / block);
             if (!isWanted(pixel)) continue;
@@ -328,41 +304,18 @@ class LampPainter {
             for (int k = 0; k < rays * rays; ++k) {
                 const glm::dvec2 place = glm::dvec2(pixel) + (glm::dvec2(k % rays, k / rays) + 0.5) / double(rays);
                 const Ray ray = rayOf(place);
-                for (std::size_t b = 0; b < beams_.size(); ++b)
-                    beams[b] = {&beams_[b], missIn(place, 1.0 / rays, ray, beams_[b].position())};
+                for (PassedBeam& passed : beams)
+                    passed.miss = meanMiss(camera_, place, 1.0 / rays, ray, passed.beam->position());
                 const SeenAmongClouds seen = scatteredAmongClouds(around(), beams, ray, endIn(pixel, ray));
                 light += seen.light;
                 clear += seen.clear;
                 const double open = 1.0 - static_cast<double>(discs_[indexOf(pixel)].share);
-                if (ground_) light += open * seen.clear * groundOf(ray);
+                if (ground_) light += open * seen.clear * groundOf(lamps, ray);
             }
             const double each = 1.0 / (rays * rays);
             light_[indexOf(pixel)] += each * light;
             if (glow != nullptr) light_[indexOf(pixel)] += glow->at(glm::dvec2(pixel) + 0.5, 1.0 - each * clear);
         }
-    }
-
-    /// Whether the light of a lamp that the fog scatters is nearly linear over a block.
-    static bool isFar(const Beam& beam, const std::array<Ray, 4>& rays) {
-        const double diagonal = glm::length(rays[3].direction - rays[0].direction);
-        const auto angleTo = [&](const Ray& ray) {
-            return glm::length(glm::normalize(beam.position() - ray.origin) - ray.direction);
-        };
-        return std::ranges::all_of(rays, [&](const Ray& ray) { return angleTo(ray) > farBlocks * diagonal; });
-    }
-
-    glm::dvec3 paintPixel(const glm::ivec2& pixel, const std::vector<const Beam*>& near, bool mixed,
-                          const Glow* glow) const {
-        const Ray ray = rayOf(glm::dvec2(pixel) + 0.5);
-        const Disc& disc = discs_[indexOf(pixel)];
-        const double end = endIn(pixel, ray);
-        glm::dvec3 light(0.0);
-        for (const Beam* beam : near)
-            light += onceScattered(haze_, *beam, ray, {0.0, end},
-                                   missIn(glm::dvec2(pixel) + 0.5, 1.0, ray, beam->position()));
-        if (glow != nullptr) light += glow->at(glm::dvec2(pixel) + 0.5, 0.0);
-        if (ground_) light += (1.0 - static_cast<double>(disc.share)) * groundIn(pixel, mixed ? 4 : 1);
-        return light;
     }
 
     Camera camera_;
@@ -371,8 +324,13 @@ class LampPainter {
     Haze haze_;
     Clouds clouds_;
     const Solids* solids_;
+    LitPicture picture_{
+        camera_, farAway, [this](const Ray& ray) { return endOf(ray); },
+        [this](const glm::ivec2& pixel, const Ray& ray) { return endIn(pixel, ray); },
+        [this](const glm::ivec2& pixel) { return isWanted(pixel) ? &light_[indexOf(pixel)] : nullptr; }};
     int raysAmongClouds_ = 1;
     std::vector<Beam> beams_;
+    std::optional<LampTree> tree_;
     std::vector<Disc> discs_;
     std::vector<glm::dvec3> light_;
 };

@@ -39,13 +39,14 @@ struct Passing {
 
     /// What a step of one in u adds at u.
     glm::dvec3 at(double u) const {
-        const double away = miss * std::cosh(u), distance = distanceOf(u);
+        const double up = std::exp(u), down = 1.0 / up, sinh = 0.5 * (up - down), cosh = 0.5 * (up + down);
+        const double away = miss * cosh, distance = nearest + miss * sinh;
         const glm::dvec3 point = ray.origin + distance * ray.direction;
         const glm::dvec3 travel = glm::normalize(point - beam.position());
         const double share = beam.share(travel);
         if (!(share > 0.0)) return glm::dvec3(0.0);
         const glm::dvec3 depth = haze.depth(ray, distance) + haze.depth({point, -travel}, away);
-        return haze.turned(point, -std::tanh(u)) * glm::exp(-depth) * (share / away * beam.passed(travel, away));
+        return haze.turned(point, -sinh / cosh) * glm::exp(-depth) * (share / away * beam.passed(travel, away));
     }
 };
 

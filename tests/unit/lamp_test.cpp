@@ -2,11 +2,15 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
+#include <vector>
 
 #include "lamp/air.h"
 #include "lamp/beam.h"
 #include "lamp/haze.h"
+#include "lamp/lamp_tree.h"
 #include "lamp/once_scattered.h"
+#include "lamp/ray_bundle.h"
 #include "sky/atmosphere.h"
 
 // Light of lamps in fog against plain sums over many steps.
@@ -124,6 +128,63 @@ TEST(OnceScattered, IsThePlainSum) {
             }
         }
     }
+}
+
+/// A bundle of rays whose points, drawn at random, a lamp lights somewhere is never said to be dark; most of the others
+/// are.
+TEST(LampRays, NoneThatIsLitIsLeftOut) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    const auto point = [&](double size) { return size * dvec3(any(random), any(random), any(random)); };
+    int dark = 0, found = 0;
+    for (int i = 0; i < 2000; ++i) {
+        scene::Lamp lamp =
+            lampOf(i % 2 == 0 ? scene::LampKind::spot : scene::LampKind::pyramid, 40.0 + 30.0 * (i % 4), 0.0);
+        lamp.position = point(50.0);
+        lamp.direction = glm::normalize(point(1.0));
+        const Beam beam(lamp);
+        const RayBundle rays{{point(50.0), glm::normalize(point(1.0))}, 0.5, 0.05, 100.0};
+        bool lit = false;
+        for (int k = 0; k < 300 && !lit; ++k) {
+            const double at = 50.0 * (1.0 + any(random));
+            const dvec3 place = rays.middle.origin + at * rays.middle.direction + 0.57 * rays.widthAt(at) * point(1.0);
+            lit = beam.share(glm::normalize(place - beam.position())) > 0.0;
+        }
+        EXPECT_TRUE(!lit || mayLight(beam, 0.0, rays)) << i;
+        dark += !lit;
+        found += !lit && !mayLight(beam, 0.0, rays);
+    }
+    EXPECT_GT(found, 0.8 * dark);
+}
+
+/// A place far away takes one lamp for all, a place among the lamps takes each, and their power is that of all.
+TEST(LampTree, GroupsHaveThePowerOfAll) {
+    std::vector<Beam> beams;
+    for (int i = 0; i < 100; ++i) {
+        scene::Lamp lamp = lampOf(scene::LampKind::point, 60.0, 0.0);
+        lamp.position = {i % 10, 0.0, i / 10};
+        beams.emplace_back(lamp);
+    }
+    const LampTree tree(beams);
+    const auto groups = tree.groups([](const LampNode&) { return true; });
+    const auto cutAt = [&](const dvec3& place) {
+        std::vector<NodeLight> cut;
+        LampTree::cut(
+            groups, 1e-3, 0.0,
+            [&](const LampNode& node) {
+                const double away = glm::distance(place, node.beam->position());
+                const double bound = luminanceOf(node.beam->power()) / (1.0 + away * away);
+                return NodeLight{&node, node.beam->power() / (1.0 + away * away), bound, node.variance / (away * away)};
+            },
+            cut);
+        dvec3 power(0.0);
+        for (const NodeLight& one : cut) power += one.node->beam->power();
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(power[c], 100.0 * beams[0].power()[c], 1e-6);
+        return cut.size();
+    };
+    EXPECT_EQ(cutAt({1000.0, 0.0, 0.0}), 1U);
+    EXPECT_GT(cutAt({5.0, 1.0, 5.0}), 20U);
+    EXPECT_LT(cutAt({30.0, 0.0, 5.0}), 40U);
 }
 
 /// Transmittance of the air for light of the sun's colour, against the atmosphere's own, at four wavelengths along a
