@@ -13,6 +13,8 @@ namespace {
 constexpr double efficacy = 683.0;  // lm/W
 constexpr double cloudPercentile = 0.98, cloudValue = 0.8;
 constexpr double skyPercentile = 0.5, skyValue = 0.18;
+/// A fifth of a picture is not to be brighter than that, however dark the rest is.
+constexpr double brightPercentile = 0.8, brightValue = 0.6;
 constexpr double leastCover = 0.02;
 constexpr std::size_t mostSamples = std::size_t{1} << 18;
 
@@ -22,17 +24,27 @@ struct Sample {
     double weight;
 };
 
-/// Luminances of some pixels with their histogram over the binary logarithm in eighths.
+/// Luminances above 0 of some pixels with their histogram over the binary logarithm in eighths.
 class Meter {
   public:
     void add(const Sample& sample) {
-        if (!(sample.luminance > 0.0) || !std::isfinite(sample.luminance) || !(sample.weight > 0.0)) return;
+        if (!std::isfinite(sample.luminance) || !(sample.weight > 0.0)) return;
+        if (!(sample.luminance > 0.0)) {
+            dark_ += sample.weight;
+            return;
+        }
         samples_.push_back(sample);
         weights_[binOf(sample.luminance)] += sample.weight;
         total_ += sample.weight;
     }
 
     double total() const { return total_; }
+
+    /// As percentile(), of the dark pixels too: 0 where they are the share.
+    double percentileOfAll(double share) const {
+        const double left = share * (total_ + dark_) - dark_;
+        return left > 0.0 && total_ > 0.0 ? percentile(left / total_) : 0.0;
+    }
 
     /// The luminance below which a share of the weight lies; exact within the bin, so that it scales as the radiance.
     double percentile(double share) const {
@@ -61,7 +73,7 @@ class Meter {
 
     std::vector<Sample> samples_;
     std::array<double, bins> weights_{};
-    double total_ = 0.0;
+    double total_ = 0.0, dark_ = 0.0;
 };
 
 /// Red, green, blue and alpha of a picture; null where it has no such layer.
@@ -121,6 +133,14 @@ std::pair<double, std::size_t> samplesOf(std::span<const LayeredImage* const> pi
     return {static_cast<double>(pixels) / static_cast<double>(step), step};
 }
 
+/// Factor that shows a picture without clouds. From high above half of it may be next to black.
+double wholeGain(const Meter& all) {
+    const double middle = all.percentileOfAll(skyPercentile), bright = all.percentileOfAll(brightPercentile);
+    if (bright > 0.0) return middle > 0.0 ? std::min(skyValue / middle, brightValue / bright) : brightValue / bright;
+    const double lit = all.percentile(skyPercentile);
+    return lit > 0.0 ? skyValue / lit : 1.0;
+}
+
 }  // namespace
 
 double gainOfEv100(double ev100) {
@@ -145,9 +165,9 @@ double meteredGain(std::span<const LayeredImage* const> pictures) {
     Meter clouds, all;
     for (const LayeredImage* picture : pictures) addPicture(*picture, step, clouds, all);
     const bool cloudy = clouds.total() >= leastCover * seen;
-    const double luminance = cloudy ? clouds.percentile(cloudPercentile) : all.percentile(skyPercentile);
-    if (!(luminance > 0.0)) return 1.0;
-    return (cloudy ? cloudValue : skyValue) / luminance;
+    if (!cloudy) return wholeGain(all);
+    const double luminance = clouds.percentile(cloudPercentile);
+    return luminance > 0.0 ? cloudValue / luminance : 1.0;
 }
 
 }  // namespace lumulus

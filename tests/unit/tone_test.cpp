@@ -111,6 +111,27 @@ TEST(Exposure, ThePictureDoesNotDependOnTheUnitOfRadiance) {
     }
 }
 
+/// A planet below a sky that grows darker with height, to black: it never turns white, nor does its grey jump.
+TEST(Exposure, FromHighAboveThePlanetIsSeen) {
+    const auto shown = [](double sky, double planet) {
+        LayeredImage image = picture(1000, 0.0, 1.0);
+        for (const char* name : {"R", "G", "B"})
+            for (std::size_t i = 0; i < 1000; ++i)
+                image.layers[name][i] = static_cast<float>(static_cast<double>(i) < 1000.0 * planet ? 1.0 : sky);
+        return gainOf(image);
+    };
+    EXPECT_NEAR(shown(0.5, 0.45), 0.18 / 0.5, 1e-6);
+    double last = shown(0.5, 0.45);
+    for (double sky = 0.4; sky > 1e-6; sky *= 0.8) {
+        const double now = shown(sky, 0.45);
+        EXPECT_LE(now, 0.6 + 1e-6) << sky;
+        EXPECT_LT(now / last, 1.3) << sky;
+        last = now;
+    }
+    EXPECT_NEAR(shown(0.0, 0.45), 0.6, 1e-6);
+    EXPECT_NEAR(shown(0.0, 0.1), 0.18, 1e-6) << "small as from the moon";
+}
+
 TEST(Exposure, BlackAndBrokenPicturesHaveAGain) {
     EXPECT_EQ(gainOf(picture(10, 1.0, 0.0)), 1.0);
     LayeredImage image = picture(10, 1.0, 1.0);
