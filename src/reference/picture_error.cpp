@@ -86,8 +86,8 @@ class ErrorProbes::Meter {
         divide(picture);
     }
 
-    /// Seconds that a path takes on all threads, by a trial.
-    double secondsOfPath(const PixelPaths& paths) const;
+    /// Seconds that a path takes on all threads, by a trial, which is short where paths are long.
+    double secondsOfPath(const PixelPaths& paths, const ErrorProgress& progress) const;
     /// Draws the pixels for about so many paths.
     void draw(const LayeredImage& picture, double paths);
 
@@ -95,7 +95,10 @@ class ErrorProbes::Meter {
 
     /// Traces some paths through each probe.
     void round(const PixelPaths& paths, const std::function<void(double)>& progress) {
-        const std::size_t some = paths.hazy() ? 1024 : 8192;
+        const std::size_t some = secondsOfPath_ > 0.0
+                                     ? static_cast<std::size_t>(std::clamp(0.1 / secondsOfPath_, 16.0, 8192.0))
+                                 : paths.hazy() ? 1024
+                                                : 8192;
         for (std::size_t begin = 0; begin < probes_.size(); begin += some) {
             const std::size_t end = std::min(begin + some, probes_.size());
             tbb::parallel_for(begin, end, [&](std::size_t probe) { trace(paths, probe); });
@@ -105,6 +108,7 @@ class ErrorProbes::Meter {
     }
 
     void tookSeconds(double seconds) { seconds_ = seconds; }
+    void foresee(double secondsOfPath) { secondsOfPath_ = secondsOfPath; }
     PictureError errorOf(const LayeredImage& picture) const;
 
   private:
@@ -122,6 +126,7 @@ class ErrorProbes::Meter {
     std::vector<Probe> probes_;
     std::uint64_t paths_ = 0;  ///< of each probe
     double seconds_ = 0.0;
+    double secondsOfPath_ = 0.0;  ///< 0: not known
 };
 
 void ErrorProbes::Meter::divide(const LayeredImage& picture) {
@@ -149,14 +154,23 @@ void ErrorProbes::Meter::divide(const LayeredImage& picture) {
     }
 }
 
-double ErrorProbes::Meter::secondsOfPath(const PixelPaths& paths) const {
-    constexpr std::size_t trials = 512;
+double ErrorProbes::Meter::secondsOfPath(const PixelPaths& paths, const ErrorProgress& progress) const {
+    constexpr std::size_t trials = 512, some = 32;
+    constexpr double enough = 0.2;
     const Clock::time_point start = Clock::now();
-    tbb::parallel_for(std::size_t{0}, trials, [&](std::size_t i) {
-        Random random(seed_ + 1, i, 0);
-        paths.trace(pixels_[i * pixels_.size() / trials], random);
-    });
-    return std::chrono::duration<double>(Clock::now() - start).count() / static_cast<double>(trials);
+    double seconds = 0.0;
+    std::size_t done = 0;
+    while (done < trials && seconds < enough) {
+        tbb::parallel_for(std::size_t{0}, some, [&](std::size_t i) {
+            const std::size_t trial = i * (trials / some) + done / some;  // all over the picture each time
+            Random random(seed_ + 1, trial, 0);
+            paths.trace(pixels_[trial * pixels_.size() / trials], random);
+        });
+        done += some;
+        seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        progress(0.0);
+    }
+    return seconds / static_cast<double>(done);
 }
 
 /// Of each block, one pixel in each of equal parts of the importance.
@@ -258,8 +272,13 @@ std::optional<ErrorProbes> ErrorProbes::trace(const LayeredImage& picture, const
     std::vector<std::size_t> pixels = countedPixels(paths.opacity(picture));
     if (pixels.empty()) return std::nullopt;
     auto meter = std::make_shared<Meter>(picture, order.seed, std::move(pixels));
-    meter->draw(picture,
-                order.paths > 0 ? static_cast<double>(order.paths) : order.seconds / meter->secondsOfPath(paths));
+    double wanted = static_cast<double>(order.paths);
+    if (order.paths == 0) {
+        const double secondsOfPath = meter->secondsOfPath(paths, progress);
+        meter->foresee(secondsOfPath);
+        wanted = order.seconds / secondsOfPath;
+    }
+    meter->draw(picture, wanted);
     const double each = static_cast<double>(meter->pathsOfARound());
     const double rounds = std::max(1.0, std::ceil(static_cast<double>(order.paths) / each));
     double took = 0.0;  // of the round before
