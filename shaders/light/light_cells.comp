@@ -1,12 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Radiance of the collectors towards the eye in each cell with density, their mean by mass, scaled and corrected by what was
-// counted in the cell (light_counts.comp). Fourth component: where the middle of the mass is, 0 where no voxel has density.
+// counted in the cell (light_counts.comp). Fourth component: 1 where voxels have density.
 #include "shared/draw.h"
 #include "shared/photon.h"
 #include "lib/collector.glsl"
 #include "lib/density.glsl"
-#include "lib/light_cell.glsl"
 #include "lib/linear.glsl"
 #include "lib/luminance.glsl"
 
@@ -17,10 +16,9 @@ layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform usampler3D collectorIndex;
 layout(binding = 2, rgba32f) uniform readonly image2D radiance;
 layout(binding = 3, rgba32f) uniform readonly image3D counts;
-layout(binding = 4) uniform writeonly image3D cells;  // with two rings of empty ones
+layout(binding = 4) uniform writeonly image3D cells;  // with a ring of empty ones
 layout(binding = 5, scalar) readonly buffer LitCells { uint litCells[]; };
 layout(binding = 6, rgba32f) uniform readonly image2D colours;  // RGB fluence of the collectors
-layout(binding = 7, rgba8) uniform readonly image3D massCentres;  // from the lower corner [cells]
 layout(push_constant, scalar) uniform Push { LightFieldPush push; };
 
 void main() {
@@ -42,7 +40,7 @@ void main() {
                 }
             }
     // Cells count alike, however thin: weighted by mass, what is bright and thin would take the colour of what is behind.
-    if (light.a > 0.0) light = vec4(light.rgb / light.a, packedPlace(imageLoad(massCentres, cell).xyz));
+    if (light.a > 0.0) light /= light.a;
     const float fluence = luminance(colour);
     if (fluence > 0.0) {
         const vec4 counted = imageLoad(counts, cell);
@@ -52,5 +50,5 @@ void main() {
         // met, and its colour is then that of one photon.
         light.rgb = counted.w * light.rgb + (gain / fluence) * colour;
     }
-    imageStore(cells, cell + CELL_RINGS, light);
+    imageStore(cells, cell + 1, light);
 }

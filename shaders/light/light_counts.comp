@@ -12,14 +12,13 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const int EDGE = 1;  // of a cell, voxels
-layout(constant_id = 1) const bool COARSE = false;  // as in light_cells.comp
 layout(binding = 0) uniform sampler3D density;
 layout(binding = 1) uniform usampler3D collectorIndex;
 layout(binding = 2, rgba32f) uniform readonly image2D fluences;  // flux, fluence
 layout(binding = 3, scalar) readonly buffer CollisionEstimates { int64_t estimates[]; };
 layout(binding = 4, r32f) uniform readonly image3D cellMass;
 layout(binding = 5) uniform writeonly image3D counts;    // gain towards a direction (vector), ratio
-layout(binding = 6) uniform writeonly image3D trust;     // share of the cell in the smoothed field; 1 + sharpness, photons · (transport free paths along the cell)², where a view finds density, else 0
+layout(binding = 6) uniform writeonly image3D trust;     // share of the cell in the smoothed field, sharpness: photons · (transport free paths along the cell)²
 layout(binding = 7, scalar) readonly buffer LitCells { uint litCells[]; };
 layout(push_constant, scalar) uniform Push { LightCountsPush push; };
 
@@ -67,16 +66,6 @@ vec3 fluxDeviation(ivec3 cell, vec3 collectors) {
     return (fluxIn(first, across) - amount * collectors) / (amount + FLUX_PRIOR * push.photon);
 }
 
-/// Whether one of the eight voxels has density at which views look in a coarse cell.
-bool isSeenCoarsely(ivec3 cell) {
-    const int STRIDE = max(EDGE / 2, 1);
-    for (int z = STRIDE / 2; z < EDGE; z += STRIDE)
-        for (int y = STRIDE / 2; y < EDGE; y += STRIDE)
-            for (int x = STRIDE / 2; x < EDGE; x += STRIDE)
-                if (densityOf(density, EDGE * cell + ivec3(x, y, z), push.size) > 0.0) return true;
-    return false;
-}
-
 void main() {
     const int STRIDE = SPARSE ? max(EDGE / 4, 1) : 1;  // where there are many voxels, some stand for all of a cell
     const uint entry = linearInvocation(64u);
@@ -109,6 +98,5 @@ void main() {
         trusted = vec2(counted / (counted + OWN * push.photon), thickness * thickness * counted / push.photon);
     }
     imageStore(counts, cell, result);
-    if (COARSE ? isSeenCoarsely(cell) : mass > 0.0) trusted.y += 1.0;
     imageStore(trust, cell, vec4(trusted, 0.0, 0.0));
 }

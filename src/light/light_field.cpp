@@ -15,7 +15,6 @@ namespace {
 namespace spirv {
 #include "spirv/light/light_cells.comp.h"
 #include "spirv/light/light_counts.comp.h"
-#include "spirv/light/light_plane.comp.h"
 #include "spirv/light/light_smooth.comp.h"
 }  // namespace spirv
 
@@ -24,10 +23,8 @@ namespace spirv {
 constexpr double photonsInCell = 16.0;
 /// 64 MiB each for the counts, the cells and the smoothed field.
 constexpr std::uint64_t maxCells = 1ULL << 22U;
-/// Empty cells round the grid (lib/light_cell.glsl).
-constexpr int rings = 2;
-/// With them they fit into 2048 texels, the least that desktop devices have along a volume.
-constexpr int maxAlong = 2048 - 2 * rings;
+/// With a ring round them they fit into 2048 texels, the least that desktop devices have along a volume.
+constexpr int maxAlong = 2046;
 
 /// Voxels with density.
 double occupiedVoxels(const cloud::Asset& cloud) {
@@ -72,23 +69,19 @@ LightCells::LightCells(gpu::Context& context, const cloud::Asset& asset, std::sh
       voxelToMetres_(voxelToMetres),
       firstCollector_(firstCollector),
       countsProgram_(context, "light_counts", spirv::light_counts_comp,
-                     {gpu::SpecConstant::of(0, grid().edge), gpu::SpecConstant::of(1, coarse), asset.sparseConstant()}),
-      planeProgram_(context, "light_plane", spirv::light_plane_comp),
+                     {gpu::SpecConstant::of(0, grid().edge), asset.sparseConstant()}),
       cellsProgram_(context, "light_cells", spirv::light_cells_comp,
                     {gpu::SpecConstant::of(0, grid().edge), gpu::SpecConstant::of(1, coarse), asset.sparseConstant()}),
       smoothProgram_(context, "light_smooth", spirv::light_smooth_comp),
-      trust_(context, "light cell trust", grid().cells, VK_FORMAT_R32G32_SFLOAT),
       counts_(context, "light counts", grid().cells, VK_FORMAT_R32G32B32A32_SFLOAT),
-      planes_(context, "light cell planes", 2 * std::max<std::uint64_t>(1, layout_->lit.numbers.size()),
-              VK_FORMAT_R32G32B32A32_SFLOAT, gpu::Memory::device) {
-    gpu::clear(context, trust_);  // what is not in the list has no density
-}
+      trust_(context, "light cell trust", grid().cells, VK_FORMAT_R32G32_SFLOAT) {}
 
 LightField::LightField(gpu::Context& context, const cloud::CellGrid& grid)
     : grid_(grid),
-      cells_(context, "light cells", grid_.cells + 2 * rings, VK_FORMAT_R32G32B32A32_SFLOAT),
+      cells_(context, "light cells", grid_.cells + 2, VK_FORMAT_R32G32B32A32_SFLOAT),
       image_(context, "light field", grid_.cells, VK_FORMAT_R32G32B32A32_SFLOAT) {
-    for (gpu::Image* image : {&cells_, &image_}) gpu::clear(context, *image);  // what is not in the list stays dark
+    // what is not in the list stays dark
+    for (gpu::Image* image : {&cells_, &image_}) gpu::upload(context, *image, std::vector<std::byte>(image->bytes()));
 }
 
 shared::LightFieldPush LightCells::push() const {
@@ -97,8 +90,6 @@ shared::LightFieldPush LightCells::push() const {
     push.grid = grid().cells;
     push.edge = grid().edge;
     push.voxelToWorld = glm::mat3(voxelToMetres_);
-    push.occupied = layout_->lit.occupied;
-    push.lit = static_cast<std::uint32_t>(layout_->lit.numbers.size());
     push.firstCollector = firstCollector_;
     return push;
 }
@@ -138,14 +129,6 @@ void LightCells::recordCounts(gpu::Commands& commands, const gpu::Image& fluence
                        {"LitCells", layout_->litCells}},
                       values, gpu::linearGroups(layout_->lit.occupied, 64));
     commands.barrier("light counts");
-    const shared::LightFieldPush cells = push();
-    commands.dispatch(planeProgram_,
-                      {{"trust", trust_},
-                       {"massCentres", layout_->massCentres},
-                       {"LitCells", layout_->litCells},
-                       {"planes", planes_}},
-                      cells, gpu::linearGroups(cells.lit, 64));
-    commands.barrier("light planes");
 }
 
 void LightField::record(gpu::Commands& commands, const LightCells& of, const glm::vec3& eyeVoxel,
@@ -154,6 +137,8 @@ void LightField::record(gpu::Commands& commands, const LightCells& of, const glm
     const CellLayout& layout = *of.layout_;
     shared::LightFieldPush values = of.push();
     values.eye = eyeVoxel;
+    values.occupied = layout.lit.occupied;
+    values.lit = static_cast<std::uint32_t>(layout.lit.numbers.size());
     commands.pass("light field");
     commands.dispatch(of.cellsProgram_,
                       {{"density", *asset.density, gpu::Sampler::nearest},
@@ -163,14 +148,16 @@ void LightField::record(gpu::Commands& commands, const LightCells& of, const glm
                        {"colours", colours},
                        {"counts", of.counts_},
                        {"cells", cells_},
-                       {"LitCells", layout.litCells},
-                       {"massCentres", layout.massCentres}},
-                      values, gpu::linearGroups(values.occupied, 64));
+                       {"LitCells", layout.litCells}},
+                      values, gpu::linearGroups(layout.lit.occupied, 64));
     commands.barrier("light cells");
-    commands.dispatch(
-        of.smoothProgram_,
-        {{"cells", cells_}, {"lightField", image_}, {"LitCells", layout.litCells}, {"planes", of.planes_}}, values,
-        gpu::linearGroups(values.lit, 64));
+    commands.dispatch(of.smoothProgram_,
+                      {{"cells", cells_},
+                       {"trust", of.trust_},
+                       {"massCentres", layout.massCentres},
+                       {"lightField", image_},
+                       {"LitCells", layout.litCells}},
+                      values, gpu::linearGroups(layout.lit.numbers.size(), 64));
 }
 
 }  // namespace lumulus::light

@@ -44,8 +44,7 @@ class LightCells {
     LightCells(gpu::Context& context, const cloud::Asset& asset, const cloud::CellGrid& grid,
                const cloud::CellGrid& estimates);
 
-    /// Records what no view changes: the collision estimates against the collectors' fluences, and how cells follow
-    /// from those around them.
+    /// Records the collision estimates against the collectors' fluences.
     void recordCounts(gpu::Commands& commands, const gpu::Image& fluences, const CollisionEstimates& estimates) const;
 
     const cloud::Asset& asset() const { return *asset_; }
@@ -62,9 +61,8 @@ class LightCells {
     glm::dmat3 voxelToMetres_;
     std::uint32_t firstCollector_;
     gpu::Program<shared::LightCountsPush> countsProgram_;
-    gpu::Program<shared::LightFieldPush> planeProgram_, cellsProgram_, smoothProgram_;
-    gpu::Image trust_, counts_;
-    gpu::Buffer planes_;  ///< how each cell that is looked up follows from those around it
+    gpu::Program<shared::LightFieldPush> cellsProgram_, smoothProgram_;
+    gpu::Image counts_, trust_;
 };
 
 /// In-scattered radiance towards one eye as a smooth field: the collectors' values on a grid of cells, scaled and
@@ -85,7 +83,7 @@ class LightField {
 
   private:
     cloud::CellGrid grid_;
-    gpu::Image cells_;  // with two rings of empty ones, which smoothing reads
+    gpu::Image cells_;  // with a ring of empty ones, which smoothing reads
     gpu::Image image_;
 };
 

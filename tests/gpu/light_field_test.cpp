@@ -157,9 +157,9 @@ class LightFieldTest : public test::VulkanTest, public testing::WithParamInterfa
         place /= weights;
         places = places / weights - glm::outerProduct(place, place) + (0.02 + 8.0 / sharpness) * glm::dmat3(1.0);
         const glm::dmat3 slope = (slopes / weights - glm::outerProduct(mean, place)) * glm::inverse(places);
-        const glm::dvec3 plane = mean - slope * place;
-        const glm::dvec3 own = glm::dvec3(raw.light(cell)) - slope * raw.centre(cell);
-        return {glm::max(glm::mix(plane, own, raw.share(cell)), 0.2 * mean), 1.0};
+        const glm::dvec3 plane = glm::max(mean - slope * place, 0.2 * mean);
+        const glm::dvec3 own = glm::max(glm::dvec3(raw.light(cell)) - slope * raw.centre(cell), 0.2 * mean);
+        return {glm::mix(plane, own, raw.share(cell)), 1.0};
     }
 
     /// What the passes should leave: light, and 1 where cells with density are near.
